@@ -58,10 +58,10 @@ def profile(command, rate, stack_bytes):
             yield from stacks(run.stdout)
 
 
-def print_table(title, counts, ms, least_ms):
+def print_table(title, counts, ms, min_ms):
     print(f'\n{title}')
     for name, count in counts.most_common():
-        if count * ms < least_ms:
+        if count * ms < min_ms:
             break
         print(f'{count * ms:9.1f} ms  {name}')
 

@@ -2,7 +2,7 @@
 // bench_clash_peers [meshes|ship] [OBJECTS] [straight|turned] [--limit SECONDS] [--scenes FOLDER]
 // [--json FILE] [PEER...]: a generated ship, as meshes or with its primitives, through Strake and
 // through Embree, FCL, CGAL, Bullet and IfcOpenShell on the same triangles. Strake's classes must
-// be those of the ship's truth, and every peer must have found what its question asks for, before a
+// be those of the ship's truth, and every peer must have found what its question requests, before a
 // time is printed: CPU seconds, medians of several runs, and the ratio to Strake's, which answers
 // with class, distance or depth and witness in that time.
 //
@@ -75,7 +75,7 @@ struct Peer {
   std::string name;
   unsigned threads = 1;
   PairQuestion question;
-  std::function<PeerAnswer()> ask;
+  std::function<PeerAnswer()> run;
 
   /// The first word, as the command line has it.
   [[nodiscard]] std::string key() const {
@@ -106,7 +106,7 @@ class Bench {
   bool run(const Peer& peer) {
     Timed timed;
     for (int i = 0; i < kRuns; ++i) {
-      timed.answer = peer.ask();
+      timed.answer = peer.run();
       const PeerAnswer& answer = timed.answer;
       if (answer.outcome != cli::kMeasured) return without_answer(peer, answer);
       const FoundPairs found(answer.pairs, known_, peer.question);

@@ -48,7 +48,7 @@ bool measure(std::uint64_t objects) {
   const auto ship = generate::generate_ship({objects, 1, false}, {});
   if (!ship) return false;
   clash::Options options{.tolerances = {.clearance_mm = generate::Truth::kClearanceMm},
-                         .engine = {.most_regions = 0}};
+                         .engine = {.max_regions = 0}};
   const auto exact = run(ship->model, options);
   if (!exact || bench::wrong_pairs(exact->report, ship->truth) > 0) {
     fmt::print("ERROR: the exact classes are not those of the ship\n");
@@ -58,7 +58,7 @@ bool measure(std::uint64_t objects) {
              "exact", exact->seconds);
   options.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
   for (const std::uint64_t budget : {100U, 1'000U, 10'000U}) {
-    options.engine.most_spheres = budget;
+    options.engine.max_spheres = budget;
     const auto spheres = run(ship->model, options);
     if (!spheres) return false;
     const auto [equal, all] = agreement(exact->report, spheres->report);

@@ -64,7 +64,7 @@ std::vector<std::uint32_t> mapped(const clash::Signatures& before, const clash::
 
 /// The least of some times: what else the machine does only adds.
 template <class Work>
-double least_s(const Work& work) {
+double min_s(const Work& work) {
   double least = 1e9;
   for (std::size_t r = 0; r < kRuns; ++r) least = std::min(least, work());
   return least;
@@ -81,7 +81,7 @@ bool measure_change(const clash::Report& earlier, const clash::Signatures& befor
   const std::vector<std::uint32_t> map = mapped(before, *now);
   clash::Report followed;
   bool good = true;
-  const double follow_s = least_s([&] {
+  const double follow_s = min_s([&] {
     clash::EarlierRun copy{earlier, map};
     (void)lap();
     auto report = clash::detect_changes(scene, run.sets, run.options, {}, std::move(copy), context);
@@ -115,7 +115,7 @@ bool measure(std::uint64_t objects) {
   if (!scene) return false;
   const Run run{*scene};
   clash::Report earlier;
-  const double full_s = least_s([&] {
+  const double full_s = min_s([&] {
     bench::Lap lap;
     auto report = clash::detect(*scene, run.sets, run.options, {}, context);
     const double seconds = lap();

@@ -232,24 +232,24 @@ def compared(strake, old, new):
                for e in diff['same'] + diff['changed']]
     # Copies that lie in each other have clashes between which nothing decides, and need not.
     right = sum(was == now or old.measures[was] == old.measures.get(now) for was, now in matched)
-    # What an object that is gone was part of cannot be told: nobody looked at it again.
+    # What an object that is gone was part of cannot be known: nobody looked at it again.
     there = set(new.tags.values())
     is_mended = {pair for pair in is_gone if pair <= there}
-    told = {'new': [new.pair(e) for e in diff['added']], 'gone': [old.pair(e) for e in diff['gone']]}
+    reported = {'new': [new.pair(e) for e in diff['added']], 'gone': [old.pair(e) for e in diff['gone']]}
     open_in = {run: {of.pair(e) for e in diff['cannot_tell'] if e['run'] == name}
                for run, of, name in (('new', new, 'new'), ('gone', old, 'old'))}
     counts = [len(both), right, len(matched)]
     for run, truth in (('new', is_new), ('gone', is_mended)):
-        found = truth & set(told[run])
-        counts += [len(truth), len(found), len(truth & open_in[run] - found), len(told[run])]
+        found = truth & set(reported[run])
+        counts += [len(truth), len(found), len(truth & open_in[run] - found), len(reported[run])]
     return [*counts, len(diff['cannot_tell'])]
 
 
 def row(label, what, counts):
     both, right, matched, *rest = counts
     cells = [label, what, both, share(right, both), share(right, matched)]
-    for truth, found, left, told in (rest[:4], rest[4:8]):
-        cells += [truth, share(found, truth), share(left, truth), share(found, told)]
+    for truth, found, left, reported in (rest[:4], rest[4:8]):
+        cells += [truth, share(found, truth), share(left, truth), share(found, reported)]
     return '| ' + ' | '.join(map(str, [*cells, rest[8]])) + ' |'
 
 

@@ -28,16 +28,16 @@ using namespace strake;
 
 /// Teams of 1, 2, 4, ... workers, and the largest there may be.
 std::vector<unsigned> team_sizes() {
-  const unsigned most = parallel::default_workers();
+  const unsigned largest = parallel::default_workers();
   std::vector<unsigned> sizes;
-  for (unsigned n = 1; n < most; n *= 2) sizes.push_back(n);
-  sizes.push_back(most);
+  for (unsigned n = 1; n < largest; n *= 2) sizes.push_back(n);
+  sizes.push_back(largest);
   return sizes;
 }
 
 constexpr std::size_t kRuns = 3;
 /// Objects of all runs side by side: beyond that they may not fit the memory.
-constexpr std::uint64_t kMostSideBySide = 4'000'000;
+constexpr std::uint64_t kMaxSideBySide = 4'000'000;
 
 struct Timed {
   clash::Report report;
@@ -117,10 +117,10 @@ bool measure(std::uint64_t objects, bool turned, double clearance_mm) {
         median_s / static_cast<double>(report.counters.candidate_pairs) * 1e6,
         report.counters.regions_given_up);
   }
-  if (const unsigned most = teams.back(); most > 1 && objects * most <= kMostSideBySide) {
-    const double together_s = side_by_side_s(*scene, options, most);
-    fmt::print("  {:>2} runs of one worker side by side: {:.2f}x is what the machine gives\n", most,
-               most * alone_s / together_s);
+  if (const unsigned largest = teams.back(); largest > 1 && objects * largest <= kMaxSideBySide) {
+    const double together_s = side_by_side_s(*scene, options, largest);
+    fmt::print("  {:>2} runs of one worker side by side: {:.2f}x is what the machine gives\n",
+               largest, largest * alone_s / together_s);
   }
   std::fflush(stdout);  // the next may take minutes
   return true;

@@ -30,7 +30,7 @@ struct Timed {
 };
 
 /// Of a pair that meets.
-Timed timed(const test::AskedPair& pair) {
+Timed timed(const test::DeepPairTest& pair) {
   Timed t;
   std::vector<double> laps;
   for (int i = 0; i < kRepeats; ++i) {
@@ -60,9 +60,9 @@ void report(test::DeepKind kind) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::DeepPair straight = test::draw_deep_pair(kind, seed);
     for (const test::DeepPair& pair : {straight, test::turned_together(straight, seed)}) {
-      const test::AskedPair asked(pair);
-      if (!asked.meets()) continue;
-      const Timed t = timed(asked);
+      const test::DeepPairTest subject(pair);
+      if (!subject.meets()) continue;
+      const Timed t = timed(subject);
       ++pairs;
       sum += t.milliseconds;
       greatest = std::max(greatest, t.milliseconds);

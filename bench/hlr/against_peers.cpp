@@ -4,7 +4,7 @@
 // view through Strake, and through OCCT's PolyAlgo, Blender's Line Art and FreeCAD's TechDraw on
 // the same triangles out of the same OBJ file. A scene is ship:OBJECTS, boxes:SIDE, pipes:SIDE or
 // an OBJ file; X,Y,Z points to the viewer. Without a scene those that each peer can finish, with
-// the ratios that are asked for.
+// the ratios that are requested.
 //
 // Seconds are of hiding alone: every program has the scene in memory before. Strake's are medians
 // of several runs, with the kinds of lines that the peer has; peers run once. Before a time counts
@@ -55,8 +55,8 @@ constexpr int kRuns = 5;
 constexpr unsigned kThreads = 2;
 constexpr double kSharp_deg = 20;
 
-/// How many times a peer should need what Strake needs; 0: not asked for.
-struct Asked {
+/// How many times a peer should need what Strake needs; 0: not requested.
+struct PeerTarget {
   std::string_view peer;
   double cpu = 0, wall = 0;
   /// How much of the lines on paper may be missing, or too many.
@@ -67,7 +67,8 @@ struct Subject {
   std::string scene;
   /// Not an isometric one, in which whole families of edges lie on each other on paper.
   Vec3l direction{5, -7, 4};
-  std::vector<Asked> asked{{"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw", 0, 0, 10}};
+  std::vector<PeerTarget> target{
+      {"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw", 0, 0, 10}};
 };
 
 std::vector<Subject> usual_subjects() {
@@ -293,21 +294,21 @@ void print(const Ours& ours, const bench::MoreLines& with) {
   std::fflush(stdout);
 }
 
-std::string asked_for(double times) {
+std::string target_text(double times) {
   return times > 0 ? fmt::format(" (asked: {})", times) : std::string();
 }
 
 /// A peer's lines beside Strake's.
 struct Compared {
   const Peer& peer;
-  const Asked& asked;
+  const PeerTarget& target;
   const Ours& ours;
   const PeerAnswer& theirs;
   bench::Common common;
 
   [[nodiscard]] double percent() const { return 100 / common.ours; }
   [[nodiscard]] bool same() const {
-    return std::max(common.missing, common.extra) * percent() <= asked.tolerance_percent;
+    return std::max(common.missing, common.extra) * percent() <= target.tolerance_percent;
   }
   [[nodiscard]] std::string text() const {
     return fmt::format(
@@ -318,7 +319,7 @@ struct Compared {
   }
   /// Returns how much may be, where it is more.
   [[nodiscard]] std::string known() const {
-    return fmt::format(", {} % are known", asked.tolerance_percent);
+    return fmt::format(", {} % are known", target.tolerance_percent);
   }
   void print(const std::vector<PaperLine>& visible) const {
     const bench::ProgramReply& r = theirs.reply;
@@ -329,7 +330,7 @@ struct Compared {
         text(), same() ? "" : ": ERROR" + known());
     if (same())
       fmt::print("    times Strake's: {:.0f} CPU{}, {:.0f} wall{}\n", r.cpu_s / ours.one.cpu,
-                 asked_for(asked.cpu), r.wall_s / ours.team.wall, asked_for(asked.wall));
+                 target_text(target.cpu), r.wall_s / ours.team.wall, target_text(target.wall));
   }
 };
 
@@ -379,12 +380,12 @@ class Bench {
     if (plain->is_wrong()) return false;
     bool right = true;
     for (const Peer& peer : bench::peers()) {
-      const auto asked = std::ranges::find(subject_.asked, peer.name, &Asked::peer);
-      if (asked == subject_.asked.end() || !arguments_.wants(peer.name)) continue;
+      const auto target = std::ranges::find(subject_.target, peer.name, &PeerTarget::peer);
+      if (target == subject_.target.end() || !arguments_.wants(peer.name)) continue;
       const Result<Ours> same = peer.draws == bench::MoreLines{} ? plain : ours(peer.draws);
       if (!same) return complain(same.error());
       if (same->is_wrong()) return false;
-      right = ask(peer, *asked, *same) && right;
+      right = run_peer(peer, *target, *same) && right;
       std::fflush(stdout);
     }
     return right;
@@ -416,17 +417,18 @@ class Bench {
   }
 
   /// Asks a peer, and prints and keeps what became of it; false where its lines are not Strake's.
-  bool ask(const Peer& peer, const Asked& asked, const Ours& ours) {
-    const PeerAnswer answer = bench::ask(peer, {file_, subject_.direction, kSharp_deg, kThreads,
-                                                arguments_.run.limit_s, folder_.path()});
+  bool run_peer(const Peer& peer, const PeerTarget& target, const Ours& ours) {
+    const PeerAnswer answer = bench::run_peer(
+        peer,
+        {file_, subject_.direction, kSharp_deg, kThreads, arguments_.run.limit_s, folder_.path()});
     const cli::PeerRow row = row_of(peer, answer, ours);
     if (answer.reply.outcome != cli::kMeasured) return without_answer(row, answer.reply);
     const std::vector<PaperLine> visible = paper_.visible(answer);
-    const Compared compared{peer, asked, ours, answer,
+    const Compared compared{peer, target, ours, answer,
                             bench::compare(of_kinds(ours.visible, peer.compared),
                                            of_kinds(visible, peer.compared), context_)};
     compared.print(visible);
-    return judge(row, compared);
+    return record_comparison(row, compared);
   }
 
   [[nodiscard]] cli::PeerRow row_of(const Peer& peer, const PeerAnswer& answer,
@@ -448,7 +450,7 @@ class Bench {
         reply.why + (absent ? ": './run bench --build hidden_lines_peers' installs it" : ""));
   }
   /// A time counts where the lines are the same, but for what is stated.
-  bool judge(cli::PeerRow row, const Compared& compared) {
+  bool record_comparison(cli::PeerRow row, const Compared& compared) {
     if (!compared.same()) {
       (void)keep(std::move(row), cli::kDisagrees, compared.text() + compared.known());
       return false;

@@ -59,15 +59,15 @@ std::vector<Case> cases_of(const model::Scene& scene) {
   const geometry::Vec3l toward{size.x / 1024, -size.x / 1024, size.x / 2048};
   hlr::View perspective{.direction = toward};
   perspective.perspective = {.eye = target + toward * 700, .target = target};
-  hlr::Options seen;
-  seen.hidden = false;
+  hlr::Options visible_only;
+  visible_only.hidden = false;
   return {{"plan", {.direction = {0, 0, 1}}, {}},
-          {"plan, what is seen", {.direction = {0, 0, 1}}, seen},
-          {"deck, what is seen", {.direction = {0, 0, 1}, .limits = deck}, seen},
+          {"plan, what is seen", {.direction = {0, 0, 1}}, visible_only},
+          {"deck, what is seen", {.direction = {0, 0, 1}, .limits = deck}, visible_only},
           {"front", {.direction = {0, -1, 0}}, {}},
           {"isometric", {.direction = {1, -1, 1}}, {}},
-          {"isometric, what is seen", {.direction = {1, -1, 1}}, seen},
-          {"perspective, what is seen", perspective, seen}};
+          {"isometric, what is seen", {.direction = {1, -1, 1}}, visible_only},
+          {"perspective, what is seen", perspective, visible_only}};
 }
 
 void move(model::Scene& scene, std::uint32_t object, std::int64_t by) {

@@ -60,14 +60,14 @@ struct Shares {
 Shares shares(const std::vector<RegionReport>& regions, double cpu) {
   Shares all;
   all.apart = cpu;
-  double most = 0;
+  double maximum = 0;
   for (const RegionReport& r : regions) {
     const double busy = r.total_busy_s(), workers = static_cast<double>(r.busy_s.size());
     all.apart -= busy;
     all.busiest += std::ranges::max(r.busy_s);
     all.least += busy / (r.bound() * workers);
-    if (busy < most) continue;
-    most = busy;
+    if (busy < maximum) continue;
+    maximum = busy;
     all.balance = r.load_balance();
     all.longest = r.name;
   }

@@ -164,7 +164,7 @@ class Bench {
   }
 
   /// CPU time of the workers on items as plant models have them, the longest first. What that
-  /// gains beside others is told by bench_schedulers.
+  /// gains beside others is reported by bench_schedulers.
   void heavy_balance() {
     const Case one = make_case(heavy_tailed(20'000, 11));
     balance(one, parallel::longest_first(one.rounds.size(),

@@ -55,7 +55,7 @@ struct Set {
   Case items;
   std::size_t grain = 1;      ///< items that a worker takes at once, for all who ask
   bool longest_first = true;  ///< whether costs are known and unequal
-  int rounds = 1;             ///< for each round asked for: more where one is short
+  int rounds = 1;             ///< for each round requested: more where one is short
 };
 
 std::vector<Set> make_sets() {
@@ -231,10 +231,10 @@ class SideBySide {
         good_ = false;
       }
     }
-    tell(set, all);
+    print_times(set, all);
   }
 
-  void tell(const Set& set, std::vector<Contender>& all) {
+  void print_times(const Set& set, std::vector<Contender>& all) {
     const Contender again = std::move(all.back());
     all.pop_back();
     const auto& rounds = set.items.rounds;

@@ -47,7 +47,7 @@ ProgramReply without_answer(std::string_view outcome, std::string why) {
 
 }  // namespace
 
-ProgramReply ask_program(std::vector<std::string> words, double limit_s,
+ProgramReply run_program(std::vector<std::string> words, double limit_s,
                          const std::filesystem::path& log) {
   // In our group, so that what ends us ends it.
   const ChildEnd end = io::run_child({.words = std::move(words),

@@ -23,7 +23,7 @@ struct ProgramReply {
 
 /// Runs a program and reads what it says. After `limit_s` seconds it is killed; `log` takes its
 /// output and stays.
-[[nodiscard]] ProgramReply ask_program(std::vector<std::string> words, double limit_s,
+[[nodiscard]] ProgramReply run_program(std::vector<std::string> words, double limit_s,
                                        const std::filesystem::path& log);
 
 }  // namespace strake::bench

@@ -47,8 +47,8 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 /// Pipes, elbows and boxes, each with lengths, place and turn of its own, as floats have them.
 model::Model plant_of_primitives(std::uint64_t objects) {
   std::mt19937 random(1);
-  const auto length = [&](double most) {
-    const auto metres = static_cast<float>(random() % 1'000'000) * static_cast<float>(most * 1e-9);
+  const auto length = [&](double range) {
+    const auto metres = static_cast<float>(random() % 1'000'000) * static_cast<float>(range * 1e-9);
     return static_cast<double>(metres) * 1000;
   };
   model::Model model;

@@ -73,7 +73,7 @@ class Night {
     Result<std::optional<project::StoredTest>> before =
         project::read_test(project_.database(), "", context_);
     if (!before) return before.error();
-    tell("read earlier result");
+    print_step("read earlier result");
     const Hash128 source =
         WordHash().add(state).add(clash::hash_of_inputs(*scene, sets, options_, {})).value();
     std::optional<project::Snapshot> made;
@@ -83,12 +83,12 @@ class Night {
       made = std::move(*now);
     }
     const project::Snapshot& snapshot = made ? *made : (**before).snapshot;
-    tell("signatures");
+    print_step("signatures");
     project::TestWork work;
     std::optional<clash::PairChanges> changes;
     const Result<clash::Report> report = test(*scene, sets, *before, snapshot, work, changes);
     if (!report) return report.error();
-    tell("clash");
+    print_step("clash");
     const clash::Policy policy;
     const project::TestedTest tested{&*report,
                                      &snapshot,
@@ -103,9 +103,9 @@ class Night {
     const Result<project::RememberedRun> remembered =
         project::remember(project_.database(), model, facts, {&tested, 1}, context_);
     if (!remembered) return remembered.error();
-    tell("remember");
+    print_step("remember");
     if (const Status done = transaction->commit(); !done) return done.error();
-    tell("commit");
+    print_step("commit");
     return remembered->trends.front().appeared;
   }
 
@@ -153,7 +153,7 @@ class Night {
     changes = std::move(run->changes);
     return std::move(run->report);
   }
-  void tell(const char* step) { fmt::print("  {:<20} {}\n", step, clock_.text()); }
+  void print_step(const char* step) { fmt::print("  {:<20} {}\n", step, clock_.text()); }
 
   project::Project& project_;
   const parallel::Context& context_;

@@ -53,8 +53,8 @@ constexpr std::array<ShipCase, 4> kShips{{
 
 /// Returns a number of objects at a scale, within what can be generated.
 std::uint64_t scaled(double full, double scale, std::uint64_t least) {
-  const double most = static_cast<double>(generate::ShipOptions::kMaxObjects);
-  return std::max(least, static_cast<std::uint64_t>(std::min(most, full * scale)));
+  const double largest = static_cast<double>(generate::ShipOptions::kMaxObjects);
+  return std::max(least, static_cast<std::uint64_t>(std::min(largest, full * scale)));
 }
 
 /// Returns the grid point at these parts of a box, which may lie outside of it.
@@ -72,11 +72,11 @@ std::span<const ShipCase> ship_cases() { return kShips; }
 generate::ShipOptions viewed_ship(ViewedShip ship, double scale) {
   constexpr double kWhole = 100'000, kCrowd = 20'000, kCrowdTriangles = 200'000;
   // The deck of a smaller crowd has no room for what is imported.
-  constexpr std::uint64_t kLeast = 2000, kLeastCrowd = 6000;
+  constexpr std::uint64_t kMin = 2000, kMinCrowd = 6000;
   generate::ShipOptions options;
   options.seed = 7;
-  options.objects = ship == ViewedShip::whole ? scaled(kWhole, scale, kLeast)
-                                              : scaled(kCrowd, scale, kLeastCrowd);
+  options.objects =
+      ship == ViewedShip::whole ? scaled(kWhole, scale, kMin) : scaled(kCrowd, scale, kMinCrowd);
   if (ship == ViewedShip::whole) return options;
   options.imported_detail = 8;
   options.imported_triangles =
@@ -87,11 +87,11 @@ generate::ShipOptions viewed_ship(ViewedShip ship, double scale) {
 
 generate::ShipOptions clashing_ship(const ShipCase& ship, double scale) {
   constexpr double kObjects = 1'050'000;
-  constexpr std::uint64_t kLeast = 2000;
+  constexpr std::uint64_t kMin = 2000;
   generate::ShipOptions options;
   options.seed = 11;
   options.kind = ship.kind;
-  options.objects = scaled(kObjects, scale, kLeast);
+  options.objects = scaled(kObjects, scale, kMin);
   return options;
 }
 
@@ -105,8 +105,8 @@ hlr::View view_of(const ViewCase& view, const geometry::Box3l& model) {
     hlr::Perspective perspective;
     perspective.eye = at(model, view.eye_and_target->lo);
     perspective.target = at(model, view.eye_and_target->hi);
-    // They are two points: neither is what see_from() refuses.
-    (void)drawing::see_from(perspective, result);
+    // They are two points: neither is what set_perspective() refuses.
+    (void)drawing::set_perspective(perspective, result);
   }
   result.up = drawing::default_up(result.direction);
   return result;

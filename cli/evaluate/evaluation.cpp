@@ -31,7 +31,7 @@ CaseRecord case_of(std::string_view name, std::string_view title, const PlacedMo
   return one;
 }
 
-/// Runs the cases that are asked for.
+/// Runs the cases that are requested.
 class Evaluation {
  public:
   Evaluation(const std::vector<std::string>& names, EvaluationRecord& record,
@@ -89,11 +89,12 @@ class Evaluation {
 
   Status draw(const ViewCase& view, const PlacedModel& ship) {
     CaseRecord one = case_of(view.name, view.title, ship);
-    const hlr::View seen = view_of(view, ship.box);
+    const hlr::View hlr_view = view_of(view, ship.box);
     for (const auto& [stage, name] :
          {std::pair(hlr::Stage::local, "local"), std::pair(hlr::Stage::global, "global")}) {
-      Result<StageRecord> measured = measure(
-          view.name, name, drawing_contenders(ship.scene, seen, stage, record_.settings.threads));
+      Result<StageRecord> measured =
+          measure(view.name, name,
+                  drawing_contenders(ship.scene, hlr_view, stage, record_.settings.threads));
       if (!measured) return measured.error();
       one.stages.push_back(std::move(*measured));
     }

@@ -13,7 +13,7 @@
 
 namespace strake::cli {
 
-/// Cases that can be asked for together.
+/// Cases that can be requested together.
 struct CaseGroup {
   std::string name;
   std::vector<std::string> cases;

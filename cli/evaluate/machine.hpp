@@ -8,7 +8,7 @@
 
 namespace strake::cli {
 
-/// Returns what can be told of the machine and the program; what cannot stays empty.
+/// Returns what can be known of the machine and the program; what cannot stays empty.
 [[nodiscard]] Machine this_machine();
 
 /// Gives freed memory back and forgets the peak of the process so far; false where the system does

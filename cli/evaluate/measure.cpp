@@ -20,7 +20,7 @@ namespace strake::cli {
 
 namespace {
 
-constexpr double kLeastShownSeconds = 0.001;
+constexpr double kMinShownSeconds = 0.001;
 
 /// Notes of the regions of a run what is worth keeping. `caller_s`: all CPU time of the calling
 /// thread, which is the first worker.
@@ -31,7 +31,7 @@ void keep_regions(const parallel::RunReport& report, double caller_s, ContenderR
   for (parallel::RegionReport& region : report.regions()) {
     if (region.runs > 0) record.shared_wall_s += region.wall_s;
     if (region.runs > 0 && !region.busy_s.empty()) record.alone_s -= region.busy_s.front();
-    if (region.wall_s + region.nested_cpu_s >= kLeastShownSeconds)
+    if (region.wall_s + region.nested_cpu_s >= kMinShownSeconds)
       record.regions.push_back(std::move(region));
   }
   record.alone_s = std::max(0.0, record.alone_s);
@@ -164,9 +164,9 @@ Result<StageRecord> measure_stage(std::string name, const std::vector<Contender>
                                   const EvaluationSettings& settings, const std::stop_token& stop,
                                   const std::function<void(const std::string&)>& narrate) {
   constexpr double kQuiet = 0.02;
-  constexpr std::uint64_t kMostRounds = 3;
+  constexpr std::uint64_t kMaxRounds = 3;
   StageMeter meter(contenders, settings, stop);
-  for (std::uint64_t round = 0; round < kMostRounds * settings.repeat; ++round) {
+  for (std::uint64_t round = 0; round < kMaxRounds * settings.repeat; ++round) {
     if (round >= settings.repeat && meter.noise() <= kQuiet) break;
     if (const Status status = meter.round(round == 0, narrate); !status) return status.error();
   }

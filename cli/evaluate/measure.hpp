@@ -19,7 +19,7 @@ namespace strake::cli {
 /// alike. There are at least `settings.repeat` rounds, and up to three times as many while the two
 /// sequential contenders, which do the same, differ by more than 2 %. Results are compared with
 /// that of the first contender: their hashes in every round, what is published in the first.
-/// `narrate` is told what runs. Errors: those of a contender that must have a result; cancelled.
+/// `narrate` receives what runs. Errors: those of a contender that must have a result; cancelled.
 [[nodiscard]] Result<StageRecord> measure_stage(
     std::string name, const std::vector<Contender>& contenders, const EvaluationSettings& settings,
     const std::stop_token& stop, const std::function<void(const std::string&)>& narrate);

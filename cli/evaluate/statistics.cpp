@@ -62,9 +62,9 @@ void add_balance(const ContenderRecord& run, Speedup& result) {
     result.worst_region = region.name;
   }
   const std::vector<double> busy = busy_seconds(run);
-  const double most = *std::ranges::max_element(busy);
+  const double largest = *std::ranges::max_element(busy);
   const double total = std::accumulate(busy.begin(), busy.end(), 0.0);
-  if (most > 0) result.load_balance = total / (static_cast<double>(busy.size()) * most);
+  if (largest > 0) result.load_balance = total / (static_cast<double>(busy.size()) * largest);
 }
 
 void add_bounds(const ContenderRecord& run, Speedup& result) {
@@ -159,7 +159,7 @@ std::span<const ThesisFigures> thesis_figures() {
   return kFigures;
 }
 
-unsigned most_threads(const EvaluationRecord& record) {
+unsigned max_threads(const EvaluationRecord& record) {
   return record.settings.threads.empty() ? 1 : record.settings.threads.back();
 }
 

@@ -21,7 +21,7 @@ namespace strake::cli {
                                                     const std::string& name, unsigned threads);
 
 /// Returns how far the two sequential runs of a stage are apart, as part of their time: what
-/// differs by less cannot be told on this machine. 0 where there was only one.
+/// differs by less cannot be known on this machine. 0 where there was only one.
 [[nodiscard]] double timing_noise(const StageRecord& stage);
 
 /// Returns the busy seconds of each worker in all regions of the team.
@@ -76,6 +76,6 @@ struct ThesisFigures {
 [[nodiscard]] std::span<const ThesisFigures> thesis_figures();
 
 /// Returns the most threads that were measured.
-[[nodiscard]] unsigned most_threads(const EvaluationRecord& record);
+[[nodiscard]] unsigned max_threads(const EvaluationRecord& record);
 
 }  // namespace strake::cli

@@ -19,10 +19,10 @@ TimeLimit::~TimeLimit() {
 }
 
 void TimeLimit::watch(double seconds) {
-  constexpr auto kLook = std::chrono::milliseconds(50);
+  constexpr auto kPollInterval = std::chrono::milliseconds(50);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   std::unique_lock lock(mutex_);
-  while (!wake_.wait_for(lock, kLook, [this] { return done_; }))
+  while (!wake_.wait_for(lock, kPollInterval, [this] { return done_; }))
     if (of_run_.stop_requested() || std::chrono::steady_clock::now() >= end) {
       source_.request_stop();
       return;

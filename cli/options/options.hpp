@@ -62,7 +62,7 @@ inline constexpr std::string_view kOrEmpty = "|''";
 /// value, but for types that end in kOrEmpty: an unset variable of a script is no default.
 [[nodiscard]] Status check_no_empty_values(const CLI::App& command);
 
-/// Returns the number of workers asked for, or the machine's own.
+/// Returns the number of workers requested, or the machine's own.
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
 /// Returns how the regions of the run share their items out.
 [[nodiscard]] parallel::Distribution distribution_of(const CommonOptions& options);

@@ -81,7 +81,7 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   FoundCommand at{&program, program.get_name()};
   for (auto used = program.get_subcommands(); !used.empty(); used = at.command->get_subcommands())
     at = {used.front(), at.path + " " + used.front()->get_name()};
-  // What is left over is told under the name of its verb, not of the error.
+  // What is left over is reported under the name of its verb, not of the error.
   const bool left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string message = error.what(), kind = error.get_name();
   const std::string help = "'" + at.path + " --help' tells what there is";

@@ -33,7 +33,7 @@ class Console {
   void warn(std::string_view line);
   /// Prints "strake: error: ..."; never silent.
   void error(std::string_view line);
-  /// Prints a line that the user asked for (--stats); never silent.
+  /// Prints a line that the user requested (--stats); never silent.
   void print(std::string_view line);
   /// Draws the progress line over the last one (terminals only); empty removes it.
   void show_status(std::string_view line);

@@ -16,18 +16,18 @@
 namespace strake::cli {
 namespace {
 
-std::uint32_t listed(const model::Model& model, std::uint64_t most) {
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, model.objects.size()));
+std::uint32_t listed(const model::Model& model, std::uint64_t limit) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(limit, model.objects.size()));
 }
 
 /// Longer values are cut: a description may fill a page.
-constexpr std::size_t kMostValueBytes = 40;
+constexpr std::size_t kMaxValueBytes = 40;
 
 std::string shown_value(std::string_view value) {
   const std::string text = printable(value);
-  if (text.size() <= kMostValueBytes) return in_quotes(text);
+  if (text.size() <= kMaxValueBytes) return in_quotes(text);
   std::string cut;
-  for (std::string_view rest = text; cut.size() < kMostValueBytes;)
+  for (std::string_view rest = text; cut.size() < kMaxValueBytes;)
     cut += take_character(rest).bytes;
   return in_quotes(cut + "…");
 }
@@ -41,9 +41,9 @@ std::string shown_values(const model::AttributeUse& use) {
 
 }  // namespace
 
-std::string object_list_text(const model::Model& model, std::uint64_t most) {
+std::string object_list_text(const model::Model& model, std::uint64_t limit) {
   std::string out;
-  const std::uint32_t shown = listed(model, most);
+  const std::uint32_t shown = listed(model, limit);
   for (std::uint32_t o = 0; o < shown; ++o) {
     const model::Object& object = model.objects[o];
     const model::SelectableProperties of = model::selectable_properties(model, model::ObjectId{o});
@@ -63,9 +63,9 @@ std::string object_list_text(const model::Model& model, std::uint64_t most) {
   return out;
 }
 
-nlohmann::ordered_json object_list_json(const model::Model& model, std::uint64_t most) {
+nlohmann::ordered_json object_list_json(const model::Model& model, std::uint64_t limit) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::uint32_t o = 0; o < listed(model, most); ++o) {
+  for (std::uint32_t o = 0; o < listed(model, limit); ++o) {
     const model::Object& object = model.objects[o];
     const model::SelectableProperties of = model::selectable_properties(model, model::ObjectId{o});
     list.push_back({{"name", object.name},

@@ -11,13 +11,13 @@
 
 namespace strake::cli {
 
-/// Returns the first `most` objects with the properties that selections test
+/// Returns the first `limit` objects with the properties that selections test
 /// (model::SelectableProperties), a block of lines each, and how many there are besides.
-[[nodiscard]] std::string object_list_text(const model::Model& model, std::uint64_t most);
+[[nodiscard]] std::string object_list_text(const model::Model& model, std::uint64_t limit);
 /// Returns the same list as an array. An attribute is [name, value]: a name may occur several
 /// times.
 [[nodiscard]] nlohmann::ordered_json object_list_json(const model::Model& model,
-                                                      std::uint64_t most);
+                                                      std::uint64_t limit);
 
 /// Returns the attributes that the objects of one file state or inherit, a line each: how many do,
 /// how many different values there are, and the first of these.

@@ -19,10 +19,10 @@ std::string shown_line(std::string_view line) {
 }
 
 std::string shown_cell(std::string_view text) {
-  constexpr std::size_t kMostColumns = 200;
+  constexpr std::size_t kMaxColumns = 200;
   std::string all = printable(text);
-  return report::columns_in(all) > kMostColumns ? report::fit_to_columns(all, kMostColumns)
-                                                : std::move(all);
+  return report::columns_in(all) > kMaxColumns ? report::fit_to_columns(all, kMaxColumns)
+                                               : std::move(all);
 }
 
 }  // namespace strake::cli

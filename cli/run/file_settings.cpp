@@ -50,13 +50,13 @@ void apply_file_settings(std::span<const rules::FileSettings> settings,
 Diagnostics idle_file_settings(std::span<const rules::FileSettings> settings,
                                const std::vector<std::filesystem::path>& files) {
   Diagnostics diagnostics;
-  std::vector<io::ReadOptions> said(files.size());
+  std::vector<io::ReadOptions> settings_of(files.size());
   for (const rules::FileSettings& one : settings) {
     bool matches = false, some = false;
     for (std::size_t f = 0; f < files.size(); ++f) {
       if (!one.is_of(files[f])) continue;
       matches = true;
-      some = take_settings(one, said[f]) || some;
+      some = take_settings(one, settings_of[f]) || some;
     }
     if (!matches)
       diagnostics.add(Severity::warning, rules::kMatchesNothing,
@@ -73,9 +73,9 @@ Status check_file_settings(std::span<const rules::FileSettings> settings,
                            const std::vector<project::StoredFile>& files,
                            const std::string& project) {
   for (const project::StoredFile& file : files) {
-    std::vector<io::FileToRead> said{{file.path, {}}};
-    apply_file_settings(settings, said);
-    const io::ReadOptions& options = said.front().options;
+    std::vector<io::FileToRead> settings_of{{file.path, {}}};
+    apply_file_settings(settings, settings_of);
+    const io::ReadOptions& options = settings_of.front().options;
     const auto error = [&](const std::string& read, const std::string& rule,
                            const std::string& option) {
       return Error{

@@ -40,8 +40,8 @@ struct UnitConfusion {
 };
 
 /// Factors of 10 and 12 are left out: parts that are so much larger than others are common. A cube
-/// or a plate that is 25 or 40 times as large is so, too: inches have to be told from those by a
-/// hundredth.
+/// or a plate that is 25 or 40 times as large is so, too: inches have to be distinguished from
+/// those by a hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
 constexpr std::array<UnitConfusion, 4> kUnitConfusions{{{1000, "m", "mm", kAlike},
                                                         {25.4, "in", "mm", kSame},
@@ -97,13 +97,13 @@ Result<std::vector<FileExtent>> extents(const model::Scene& scene,
   const std::vector<model::SourceFile>& files = scene.model->files;
   using Boxes = std::vector<Box3d>;
   // Each block has boxes of its own, so that there are few, and long ones.
-  constexpr std::size_t kLeastGrain = 4096, kMostBlocks = 64;
+  constexpr std::size_t kMinGrain = 4096, kMaxBlocks = 64;
   const std::size_t bodies = scene.bodies.size();
   const auto boxes = parallel::reduce(
       context,
       {.name = "extents of files",
        .n = bodies,
-       .grain = std::max(kLeastGrain, (bodies + kMostBlocks - 1) / kMostBlocks)},
+       .grain = std::max(kMinGrain, (bodies + kMaxBlocks - 1) / kMaxBlocks)},
       Boxes(files.size(), geometry::empty_box<double>()),
       [&](Boxes& of_block, std::size_t i) {
         const model::GridBody& body = scene.bodies[i];
@@ -172,7 +172,7 @@ Status note_doubtful_units(model::Scene& scene, const parallel::Context& context
 
 namespace {
 
-/// Finest sag: corners closer than the grid's spacing cannot be told apart.
+/// Finest sag: corners closer than the grid's spacing cannot be distinguished.
 constexpr double kFinestSagMm = 0.001;
 constexpr double kWidestWeldMm = 1000;
 
@@ -295,7 +295,7 @@ Result<InputFiles> input_files(const InputOptions& input) {
 
 /// Reads model files and takes models out of projects, as one model; tells which `sources` it has.
 Result<model::Model> join_inputs(Session& session, const InputFiles& files,
-                                 std::span<const rules::FileSettings> said_of_files,
+                                 std::span<const rules::FileSettings> file_settings,
                                  std::vector<std::filesystem::path>& sources) {
   std::vector<model::Model> models;
   for (const std::filesystem::path& file : files.projects) {
@@ -304,7 +304,7 @@ Result<model::Model> join_inputs(Session& session, const InputFiles& files,
     if (!project) return project.error();
     if (const Status status = add_model_files(session, *project); !status) return status.error();
     Result<std::vector<std::filesystem::path>> of_project =
-        model_files(*project, file.string(), said_of_files);
+        model_files(*project, file.string(), file_settings);
     if (!of_project) return of_project.error();
     sources.insert(sources.end(), of_project->begin(), of_project->end());
     Result<model::Model> model = project_model(session, *project);
@@ -325,13 +325,13 @@ Result<model::Model> join_inputs(Session& session, const InputFiles& files,
 }
 
 Result<model::Model> read_model(Session& session, const InputOptions& input,
-                                std::span<const rules::FileSettings> said_of_files,
+                                std::span<const rules::FileSettings> file_settings,
                                 std::vector<std::filesystem::path>& sources) {
   Result<InputFiles> files = input_files(input);
   if (!files) return files.error();
-  apply_file_settings(said_of_files, files->models);
+  apply_file_settings(file_settings, files->models);
   const auto timer = session.step("load");
-  Result<model::Model> model = join_inputs(session, *files, said_of_files, sources);
+  Result<model::Model> model = join_inputs(session, *files, file_settings, sources);
   if (!model) return model;
   note_repeated_files(*model, input.files);
   print_model_notes(session, *model);
@@ -395,9 +395,9 @@ Result<LoadedModel> place(Session& session, model::Model model,
 
 Result<LoadedModel> load(Session& session, const InputOptions& input,
                          const model::SceneOptions& options,
-                         std::span<const rules::FileSettings> said_of_files) {
+                         std::span<const rules::FileSettings> file_settings) {
   std::vector<std::filesystem::path> sources;
-  Result<model::Model> model = read_model(session, input, said_of_files, sources);
+  Result<model::Model> model = read_model(session, input, file_settings, sources);
   if (!model) return model.error();
   Result<LoadedModel> loaded = place(session, std::move(*model), options);
   if (loaded) loaded->files = std::move(sources);

@@ -73,11 +73,11 @@ void print_model_notes(Session& session, const model::Model& model);
                                         const model::SceneOptions& options);
 
 /// Reads the files of the command line, puts them on the grid, and prints what was noticed;
-/// `said_of_files` is what rules say of them, if there are any. Of a project it takes the model, as
+/// `file_settings` is what rules say of them, if there are any. Of a project it takes the model, as
 /// it was read. Errors: usage where rules say otherwise of a file of a project than it was read.
 [[nodiscard]] Result<LoadedModel> load(Session& session, const InputOptions& input,
                                        const model::SceneOptions& options,
-                                       std::span<const rules::FileSettings> said_of_files = {});
+                                       std::span<const rules::FileSettings> file_settings = {});
 
 /// Returns `done`, or `partial` where --strict was given and something was skipped.
 [[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Diagnostics& diagnostics);

@@ -21,7 +21,7 @@ namespace strake::cli {
 #ifdef __GLIBC__
 namespace {
 
-/// Bytes by which a heap grows beyond what is asked for, and of which a worker's heap that is empty
+/// Bytes by which a heap grows beyond what is requested, and of which a worker's heap that is empty
 /// is not given back: their pages would be taken again in the next region (decision 0113). It is
 /// little of memory that has a limit, all of which may be needed.
 int room_of_heaps() {

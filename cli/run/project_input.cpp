@@ -145,10 +145,10 @@ Result<model::Model> project_model(Session& session, project::Project& project) 
 
 Result<std::vector<std::filesystem::path>> model_files(
     project::Project& project, const std::string& name,
-    std::span<const rules::FileSettings> said_of_files) {
+    std::span<const rules::FileSettings> file_settings) {
   const Result<std::vector<project::StoredFile>> files = project.files();
   if (!files) return files.error();
-  if (const Status status = check_file_settings(said_of_files, *files, name); !status)
+  if (const Status status = check_file_settings(file_settings, *files, name); !status)
     return status.error();
   std::vector<std::filesystem::path> paths;
   for (const project::StoredFile& file : *files) paths.push_back(file.path);
@@ -157,9 +157,9 @@ Result<std::vector<std::filesystem::path>> model_files(
 
 Result<LoadedModel> load_project(Session& session, OpenedProject& opened,
                                  const model::SceneOptions& options,
-                                 std::span<const rules::FileSettings> said_of_files) {
+                                 std::span<const rules::FileSettings> file_settings) {
   Result<std::vector<std::filesystem::path>> files =
-      model_files(opened.project, opened.file, said_of_files);
+      model_files(opened.project, opened.file, file_settings);
   if (!files) return files.error();
   Result<project::SignedModel> stored = [&] {
     const auto timer = session.step("load");

@@ -80,12 +80,12 @@ struct OpenedProject {
 /// project::Project::files().
 [[nodiscard]] Result<std::vector<std::filesystem::path>> model_files(
     project::Project& project, const std::string& name,
-    std::span<const rules::FileSettings> said_of_files);
+    std::span<const rules::FileSettings> file_settings);
 
 /// Takes the model out of the project, puts it on the grid, and prints what was noticed, as load()
 /// does for files. Errors: those of project_model() and of model_files().
 [[nodiscard]] Result<LoadedModel> load_project(
     Session& session, OpenedProject& opened, const model::SceneOptions& options,
-    std::span<const rules::FileSettings> said_of_files = {});
+    std::span<const rules::FileSettings> file_settings = {});
 
 }  // namespace strake::cli

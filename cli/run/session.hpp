@@ -28,7 +28,7 @@ class Session {
   Session(const CommonOptions& options, unsigned workers, Console& console, Interrupts& interrupts);
 
   [[nodiscard]] parallel::Context context();
-  /// Returns the report on parallel work; from now on contexts ask for it, --stats or not.
+  /// Returns the report on parallel work; from now on contexts request it, --stats or not.
   [[nodiscard]] const parallel::RunReport& measured();
   [[nodiscard]] Console& console() { return console_; }
   [[nodiscard]] Stats& stats() { return stats_; }
@@ -56,7 +56,7 @@ class Session {
     line_.reset();
     interrupts_.expect();
   }
-  /// Removes the progress line and prints what --stats asks for.
+  /// Removes the progress line and prints what --stats requests.
   void finish();
 
  private:

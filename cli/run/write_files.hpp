@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outputs of a run, each in the format that the name of its file asks for.
+// Outputs of a run, each in the format that the name of its file requests.
 #pragma once
 
 #include <span>

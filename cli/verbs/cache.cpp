@@ -33,11 +33,11 @@ Result<seconds> parse_age(const std::string& text) {
     double seconds;
   };
   constexpr std::array<Unit, 4> kUnits{{{"d", 86400}, {"h", 3600}, {"min", 60}, {"s", 1}}};
-  constexpr double kMost = 1e10;  // some centuries
+  constexpr double kMax = 1e10;  // some centuries
   if (const std::optional<Quantity> age = parse_quantity(text))
     for (const Unit& unit : kUnits)
       if (const double all = age->number * unit.seconds;
-          age->unit == unit.name && all >= 0 && all <= kMost)
+          age->unit == unit.name && all >= 0 && all <= kMax)
         return seconds(static_cast<std::int64_t>(all));
   return Error{ErrorCode::usage, in_quotes(text) + " is no time", "--older-than",
                "write it as 30d, 12h or 90min"};

@@ -92,8 +92,8 @@ Result<ExitCode> run_convert(Session& session, const ConvertOptions& options) {
   if (!written) return written.error();
   session.console().note("wrote " + *output);
   if (session.json())
-    if (const Status told = session.write_stdout(conversion_json(*model, *output)); !told)
-      return told.error();
+    if (const Status status = session.write_stdout(conversion_json(*model, *output)); !status)
+      return status.error();
   return strict_exit_code(input, model->diagnostics);
 }
 

@@ -52,12 +52,12 @@ std::vector<std::string> parts_of(const std::string& list) {
 
 /// Reads a positive number; overwrites `value` where it was given.
 Status positive_number(double& value, const std::string& text, const std::string& option,
-                       double most) {
+                       double maximum) {
   if (text.empty()) return {};
   const std::optional<double> number = parse_number(text);
-  if (!number || !(*number > 0) || !(*number <= most))
+  if (!number || !(*number > 0) || !(*number <= maximum))
     return Error{ErrorCode::usage, "'" + text + "' cannot be taken", option,
-                 fmt::format("write a number above 0, {:g} at most", most)};
+                 fmt::format("write a number above 0, {:g} at most", maximum)};
   value = *number;
   return {};
 }
@@ -67,9 +67,9 @@ Status positive_number(double& value, const std::string& text, const std::string
 Result<std::vector<unsigned>> team_sizes(const std::string& text) {
   std::vector<unsigned> sizes{1};
   if (text.empty()) {
-    const unsigned most = parallel::default_workers();
-    for (unsigned n = 2; n < most; n *= 2) sizes.push_back(n);
-    sizes.push_back(most);
+    const unsigned maximum = parallel::default_workers();
+    for (unsigned n = 2; n < maximum; n *= 2) sizes.push_back(n);
+    sizes.push_back(maximum);
   } else {
     for (const std::string& part : parts_of(text)) {
       std::uint64_t size = 0;
@@ -84,7 +84,7 @@ Result<std::vector<unsigned>> team_sizes(const std::string& text) {
   return sizes;
 }
 
-/// Returns the cases that are asked for: without --only all that can be measured.
+/// Returns the cases that are requested: without --only all that can be measured.
 Result<std::vector<std::string>> chosen_cases(const std::string& only, bool has_peers) {
   const std::vector<CaseGroup> groups = case_groups();
   std::vector<std::string> chosen, known;
@@ -132,24 +132,24 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
           positive_number(settings.limit_s, given.limit, "--limit", kLongestLimitSeconds);
       !s)
     return s.error();
-  constexpr std::uint64_t kMostRounds = 1000;
+  constexpr std::uint64_t kMaxRounds = 1000;
   if (!whole_number(settings.repeat, given.repeat, "--repeat") || settings.repeat < 1 ||
-      settings.repeat > kMostRounds)
+      settings.repeat > kMaxRounds)
     return Error{ErrorCode::usage, "'" + given.repeat + "' is no number of rounds", "--repeat",
-                 fmt::format("write a number from 1 to {}", kMostRounds)};
+                 fmt::format("write a number from 1 to {}", kMaxRounds)};
   const Result<std::vector<unsigned>> threads = team_sizes(given.threads);
   if (!threads) return threads.error();
   settings.threads = *threads;
   return settings;
 }
 
-/// Returns where peers are, if they are asked for.
+/// Returns where peers are, if they are requested.
 Result<std::optional<PeerPrograms>> peer_programs(const EvaluateOptions& given,
                                                   const EvaluationSettings& settings,
                                                   const fs::path& folder) {
-  constexpr double kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 900, kLeastSeconds = 60;
+  constexpr double kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 900, kMinSeconds = 60;
   PeerPrograms programs{given.peers, folder / kPeersGroup,
-                        std::max(kLeastSeconds, kLimitAtFullScaleSeconds * settings.scale)};
+                        std::max(kMinSeconds, kLimitAtFullScaleSeconds * settings.scale)};
   if (const Status s =
           positive_number(programs.limit_s, given.peer_limit, "--peer-limit", kLongestLimitSeconds);
       !s)
@@ -189,12 +189,12 @@ Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::pa
                  file.string(), "give --fresh to begin again, or another -o"};
   }
   if (!goes_on) return empty;
-  const auto is_asked_for = [&](const auto& one) {
+  const auto is_requested = [&](const auto& one) {
     return std::ranges::find(names, one.name) != names.end();
   };
-  std::erase_if(record->cases, is_asked_for);
-  std::erase_if(record->studies, is_asked_for);
-  std::erase_if(record->peers, is_asked_for);
+  std::erase_if(record->cases, is_requested);
+  std::erase_if(record->studies, is_requested);
+  std::erase_if(record->peers, is_requested);
   return record;
 }
 

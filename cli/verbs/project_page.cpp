@@ -50,7 +50,8 @@ Result<std::vector<page::TrendPoint>> trend_of(project::Database& database) {
   return trend;
 }
 
-/// Returns the stored views as they were drawn last. One that cannot be had is told and left out.
+/// Returns the stored views as they were drawn last. One that cannot be had is reported and left
+/// out.
 Result<std::vector<page::PageDrawing>> drawings_of(Session& session, OpenedProject& opened) {
   const Result<std::vector<project::StoredView>> views =
       project::list_views(opened.project.database());

@@ -15,7 +15,7 @@
 #include "cli/verbs/project_page.hpp"
 #include "cli/verbs/verb.hpp"
 #include "page/page.hpp"
-#include "project/review/decide_as_seen.hpp"
+#include "project/review/decide_if_unchanged.hpp"
 #include "serve/gate/gate.hpp"
 #include "serve/gate/secret.hpp"
 #include "serve/http/server.hpp"
@@ -46,16 +46,16 @@ Result<serve::ServedPage> served_page(Session& session, OpenedProject& opened,
   project::Database& database = opened.project.database();
   const Result<project::ReadScope> scope = project::ReadScope::begin(database);
   if (!scope) return scope.error();
-  const Result<project::SeenState> seen = project::state_now(database);
-  if (!seen) return seen.error();
+  const Result<project::KnownState> state = project::current_state(database);
+  if (!state) return state.error();
   std::string html;
   const Status status = make_project_page(session, opened, geometry, [&](page::PageContents& page) {
-    page.served = {seen->run, seen->event, by};
+    page.served = {state->run, state->event, by};
     return page::write_page(page, [&](std::string_view text) { html += text; }, session.context());
   });
   if (!status) return status.error();
   return serve::ServedPage{std::make_shared<const std::string>(std::move(html)),
-                           page::served_policy(), *seen};
+                           page::served_policy(), *state};
 }
 
 Result<serve::Gate> gate_of(std::uint16_t port) {

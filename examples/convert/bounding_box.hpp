@@ -16,14 +16,14 @@ namespace convert {
 
 /// Empty until it holds a point; an empty one adds nothing to another.
 struct Box {
-  std::array<std::int32_t, 3> lo{kMost, kMost, kMost}, hi{-kMost, -kMost, -kMost};
+  std::array<std::int32_t, 3> lo{kMax, kMax, kMax}, hi{-kMax, -kMax, -kMax};
 
   [[nodiscard]] bool is_empty() const { return lo[0] > hi[0]; }
   void add(const Point& p);
   void add(const Box& other);
 
  private:
-  static constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 };
 
 inline constexpr std::uint32_t kNoPart = 0xffffffffU;

@@ -22,7 +22,7 @@ Error wrong(const std::string& message) {
 }  // namespace
 
 Result<Arguments> parse_arguments(std::span<char*> words) {
-  constexpr long long kMostThreads = 1024;
+  constexpr long long kMaxThreads = 1024;
   constexpr double kFinest = 1e-3, kCoarsest = 1e6;
   Arguments arguments;
   for (std::size_t i = 1; i < words.size(); i += 2) {
@@ -38,7 +38,7 @@ Result<Arguments> parse_arguments(std::span<char*> words) {
     } else if (name == "--threads") {
       const auto threads = parse_integer(value);
       if (!threads || *threads < 1) return wrong(in_quotes(value) + " is no number of threads");
-      arguments.threads = static_cast<unsigned>(std::min(*threads, kMostThreads));
+      arguments.threads = static_cast<unsigned>(std::min(*threads, kMaxThreads));
     } else if (name == "--sag") {
       const auto sag = parse_number(value);
       if (!sag || !(*sag >= kFinest && *sag <= kCoarsest))

@@ -45,19 +45,19 @@ std::vector<std::string> files_beside(const fs::path& input, const Document& doc
 }
 
 /// Says of each reference to nothing where it is; of many, how many more there are.
-void tell_missing(const StepReferences& references, Report& report) {
-  for (const std::string& one : references.told)
+void report_missing_references(const StepReferences& references, Report& report) {
+  for (const std::string& one : references.listed)
     report.add(Severity::skipped, "step-missing-entity", one.substr(0, one.find(' ')), one);
-  if (references.missing > references.told.size())
+  if (references.missing > references.listed.size())
     report.add(Severity::skipped, "step-missing-entity", "",
-               std::to_string(references.missing - references.told.size()) +
+               std::to_string(references.missing - references.listed.size()) +
                    " more references name entities that are not there");
 }
 
 Status convert(const Arguments& arguments, Report& report) {
   const Result<SourceFile> source = inspect_source(arguments.input);
   if (!source) return source.error();
-  tell_missing(source->references, report);
+  report_missing_references(source->references, report);
   const Handle(ReportProgress) progress = new ReportProgress(report);
   progress->next(0, 0);
   const Result<Document> document = read_document(arguments.input, source->kind, progress);

@@ -48,20 +48,20 @@ void run_mesher(const TopoDS_Shape& shape, double sag_mm, const MeshOptions& opt
 }
 
 /// Makes triangles no farther than a distance from the surface of a shape, and returns how far they
-/// may be, mm: some faces, as whole balls, come out twice as coarse as the mesher was asked for.
+/// may be, mm: some faces, as whole balls, come out twice as coarse as requested of the mesher.
 double mesh_within(const TopoDS_Shape& shape, double wanted_mm, const MeshOptions& options,
                    const Handle(ReportProgress) & progress) {
   // A face that is at odds with itself never comes near its surface: it must not cost the piece.
   constexpr int kAttempts = 3;
-  constexpr double kMostFiner = 0.4;
-  double asked_mm = wanted_mm;
+  constexpr double kMaxFiner = 0.4;
+  double wanted_sag_mm = wanted_mm;
   for (int attempt = 1;; ++attempt) {
-    run_mesher(shape, asked_mm, options, progress->Start());
+    run_mesher(shape, wanted_sag_mm, options, progress->Start());
     if (progress->is_over_limit()) return wanted_mm;
     if (has_flat_faces_only(shape)) return 0;
     const double sag_mm = largest_sag_found(shape, wanted_mm);
     if (!(sag_mm > wanted_mm) || attempt == kAttempts || !progress->is_early()) return sag_mm;
-    asked_mm *= std::max(wanted_mm / sag_mm, kMostFiner);
+    wanted_sag_mm *= std::max(wanted_mm / sag_mm, kMaxFiner);
     BRepTools::Clean(shape);
   }
 }

@@ -28,7 +28,7 @@ struct MeshedPiece {
   geometry::TriangleMesh mesh;
   std::size_t faces_without = 0;
   bool is_closed = false;
-  /// Its sag, mm, where that is more than was asked for.
+  /// Its sag, mm, where that is more than was requested.
   std::optional<double> coarser_sag_mm;
   std::string fault;
 };

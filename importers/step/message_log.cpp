@@ -9,7 +9,7 @@
 namespace strake::import_step {
 
 void FaultPrinter::send(const TCollection_AsciiString& text, Message_Gravity gravity) const {
-  if (gravity < Message_Alarm || faults_.size() >= kMost) return;
+  if (gravity < Message_Alarm || faults_.size() >= kMax) return;
   const std::string line = printable(trimmed(text.ToCString(), " \t\r\n*"));
   if (!line.empty()) faults_.push_back(line);
 }
@@ -19,9 +19,9 @@ std::string failure_text(const Standard_Failure& failure) {
   constexpr std::string_view kSignal = "OSD_";
   if (kind.starts_with(kSignal))
     return "Open CASCADE has a fault there (" + std::string(kind.substr(kSignal.size())) + ")";
-  const char* const said = failure.GetMessageString();
+  const char* const message = failure.GetMessageString();
   return "Open CASCADE gives up (" + std::string(kind) +
-         (said == nullptr || *said == 0 ? "" : ": " + printable(said)) + ")";
+         (message == nullptr || *message == 0 ? "" : ": " + printable(message)) + ")";
 }
 
 MessageLog::MessageLog() : printer_(new FaultPrinter) {

@@ -19,7 +19,7 @@ class FaultPrinter : public Message_Printer {
   void send(const TCollection_AsciiString& text, Message_Gravity gravity) const override;
 
  private:
-  static constexpr std::size_t kMost = 3;
+  static constexpr std::size_t kMax = 3;
 
   // Open CASCADE tells printers in const functions.
   mutable std::vector<std::string> faults_;
@@ -38,7 +38,7 @@ class MessageLog {
   MessageLog(MessageLog&&) = delete;
   MessageLog& operator=(MessageLog&&) = delete;
 
-  /// Returns what was told, "; " between; empty where nothing was.
+  /// Returns what was reported, "; " between; empty where nothing was.
   [[nodiscard]] std::string text() const;
 
  private:

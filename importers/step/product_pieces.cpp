@@ -44,10 +44,10 @@ class ColorAreas {
   }
   [[nodiscard]] std::optional<model::Color> largest() const {
     std::optional<model::Color> color;
-    double most = -1;
+    double maximum = -1;
     for (const auto& [key, area] : areas_)
-      if (area > most) {
-        most = area;
+      if (area > maximum) {
+        maximum = area;
         color = model::Color{key[0], key[1], key[2], key[3]};
       }
     return color;
@@ -98,9 +98,9 @@ std::optional<model::Color> PieceFinder::color_of_shell(const TopoDS_Shape& shap
 }
 
 void PieceFinder::add_solids() {
-  TopTools_MapOfShape seen;
+  TopTools_MapOfShape visited;
   for (TopExp_Explorer at(product_, TopAbs_SOLID); at.More(); at.Next())
-    if (seen.Add(at.Current()))
+    if (visited.Add(at.Current()))
       result_.pieces.push_back({at.Current(), true, color_of_solid(at.Current())});
 }
 

@@ -26,7 +26,7 @@ using geometry::Placement;
 using geometry::Vec3d;
 
 /// A file of a few lines can place a part that many times.
-constexpr std::size_t kMostObjects = 5'000'000;
+constexpr std::size_t kMaxObjects = 5'000'000;
 
 Placement placement_of(const TopLoc_Location& location) {
   const gp_Trsf& place = location.Transformation();
@@ -94,7 +94,7 @@ class SceneBuilder {
     std::vector<TDF_Label> instances;   ///< that lead there, the outermost first
   };
 
-  void count_products(const TDF_Label& label, std::set<std::string>& seen);
+  void count_products(const TDF_Label& label, std::set<std::string>& visited);
   void add_tree(const TDF_Label& label, const TDF_Label& instance, const Place& place,
                 NameCounter& names);
   void add_instance(const Product& product, const TDF_Label& instance, const Place& place,
@@ -108,7 +108,7 @@ class SceneBuilder {
                        const XCAFPrs_IndexedDataMapOfShapeStyle& styles);
   void add_part(Product& product, const Piece& piece, std::vector<model::Shape>& shapes);
   void center(Product& product, std::vector<model::Shape>& shapes);
-  void tell_what_was_left_out();
+  void report_left_out();
 
   const Document& document_;
   const SceneOptions& options_;
@@ -139,15 +139,15 @@ TDF_Label referred(const TDF_Label& label) {
   return product;
 }
 
-void SceneBuilder::count_products(const TDF_Label& label, std::set<std::string>& seen) {
-  if (!seen.insert(entry_of(label)).second) return;
+void SceneBuilder::count_products(const TDF_Label& label, std::set<std::string>& visited) {
+  if (!visited.insert(entry_of(label)).second) return;
   if (!is_assembly(label)) {
     ++product_count_;
     return;
   }
   TDF_LabelSequence components;
   XCAFDoc_ShapeTool::GetComponents(label, components);
-  for (const TDF_Label& component : components) count_products(referred(component), seen);
+  for (const TDF_Label& component : components) count_products(referred(component), visited);
 }
 
 model::GroupId SceneBuilder::add_group(const std::string& name, model::GroupId parent) {
@@ -185,8 +185,8 @@ void SceneBuilder::add_part(Product& product, const Piece& piece,
 
 /// Has corners count from the middle of the product: they are written as float32.
 void SceneBuilder::center(Product& product, std::vector<model::Shape>& shapes) {
-  constexpr double kMost = 1e300;
-  Vec3d low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
+  constexpr double kMax = 1e300;
+  Vec3d low{kMax, kMax, kMax}, high{-kMax, -kMax, -kMax};
   for (const model::Shape& shape : shapes)
     for (const Vec3d& v : std::get<geometry::TriangleMesh>(shape).vertices)
       for (int k = 0; k < 3; ++k) {
@@ -242,7 +242,7 @@ const Product& SceneBuilder::product_of(const TDF_Label& label) {
 void SceneBuilder::add_instance(const Product& product, const TDF_Label& instance,
                                 const Place& place, NameCounter& names) {
   if (product.parts.empty()) return;
-  if (model_.objects.size() >= kMostObjects) {
+  if (model_.objects.size() >= kMaxObjects) {
     too_many_ = true;
     return;
   }
@@ -341,8 +341,8 @@ void SceneBuilder::add_loose_surfaces(const std::vector<TDF_Label>& roots, NameC
 void SceneBuilder::add_roots() {
   TDF_LabelSequence roots;
   labels_.shapes->GetFreeShapes(roots);
-  std::set<std::string> seen;
-  for (const TDF_Label& root : roots) count_products(root, seen);
+  std::set<std::string> visited;
+  for (const TDF_Label& root : roots) count_products(root, visited);
   NameCounter names;
   std::vector<TDF_Label> surfaces;
   for (const TDF_Label& root : roots) {
@@ -357,7 +357,7 @@ void SceneBuilder::add_roots() {
   if (!surfaces.empty()) add_loose_surfaces(surfaces, names);
 }
 
-void SceneBuilder::tell_what_was_left_out() {
+void SceneBuilder::report_left_out() {
   for (const std::string& entity : document_.not_read)
     report_.add(Severity::skipped, "step-not-read", entity.substr(0, entity.find(':')), entity);
   if (document_.unknown > 0)
@@ -378,7 +378,7 @@ void SceneBuilder::tell_what_was_left_out() {
 
 Result<model::Model> SceneBuilder::build() {
   add_roots();
-  tell_what_was_left_out();
+  report_left_out();
   if (too_many_)
     return Error{ErrorCode::input, "its assemblies place more than 5 million parts", "",
                  "split the model"};

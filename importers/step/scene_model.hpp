@@ -19,7 +19,7 @@ struct SceneOptions {
 };
 
 /// Makes the model of a document: assemblies are groups, instances of parts are objects, their
-/// shapes are shared. What cannot be in it is told in the report.
+/// shapes are shared. What cannot be in it is reported in the report.
 /// Errors: input, where nothing becomes an object, or there are too many.
 [[nodiscard]] Result<model::Model> make_scene_model(const Document& document,
                                                     const SceneOptions& options, Report& report,

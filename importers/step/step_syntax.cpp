@@ -78,10 +78,10 @@ std::optional<std::string> SyntaxCheck::skip_string() {
 
 /// Returns the number here; one that is too large stays the largest.
 std::uint64_t SyntaxCheck::number() {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 60U;
   std::uint64_t value = 0;
   for (; !at_end() && is_digit(here()); ++at_)
-    value = std::min(kMost, 10 * value + static_cast<std::uint64_t>(here() - '0'));
+    value = std::min(kMax, 10 * value + static_cast<std::uint64_t>(here() - '0'));
   return value;
 }
 
@@ -157,10 +157,10 @@ StepReferences SyntaxCheck::references() {
   StepReferences result;
   for (const Reference& reference : used_) {
     if (std::ranges::binary_search(known_, reference.to)) continue;
-    if (result.missing++ < StepReferences::kMostTold)
-      result.told.push_back("#" + std::to_string(reference.from) + " in line " +
-                            std::to_string(reference.line) + " refers to #" +
-                            std::to_string(reference.to) + ", which is not there");
+    if (result.missing++ < StepReferences::kMaxListed)
+      result.listed.push_back("#" + std::to_string(reference.from) + " in line " +
+                              std::to_string(reference.line) + " refers to #" +
+                              std::to_string(reference.to) + ", which is not there");
   }
   return result;
 }

@@ -13,10 +13,10 @@ namespace strake::import_step {
 
 /// What the references of a STEP file lack.
 struct StepReferences {
-  static constexpr std::size_t kMostTold = 20;
+  static constexpr std::size_t kMaxListed = 20;
 
-  std::size_t missing = 0;        ///< how many name an entity that is not there
-  std::vector<std::string> told;  ///< the first of them: "#12 in line 40 refers to #99"
+  std::size_t missing = 0;          ///< how many name an entity that is not there
+  std::vector<std::string> listed;  ///< the first of them: "#12 in line 40 refers to #99"
 };
 
 /// Checks the syntax of a STEP file (ISO 10303-21): Open CASCADE crashes on some faults, and says

@@ -25,8 +25,8 @@ namespace {
 /// Finds how far the triangles of a face are from its surface.
 class FaceSag {
  public:
-  FaceSag(const TopoDS_Face& face, double asked_mm)
-      : surface_(BRep_Tool::Surface(face)), largest_(asked_mm) {}
+  FaceSag(const TopoDS_Face& face, double wanted_sag_mm)
+      : surface_(BRep_Tool::Surface(face)), largest_(wanted_sag_mm) {}
 
   void add(const std::array<gp_XYZ, 3>& at, const std::array<gp_XY, 3>& uv) {
     const gp_XYZ normal = (at[1] - at[0]).Crossed(at[2] - at[0]);
@@ -58,12 +58,12 @@ class FaceSag {
   double largest_;
 };
 
-double sag_of_face(const TopoDS_Face& face, double asked_mm) {
+double sag_of_face(const TopoDS_Face& face, double wanted_sag_mm) {
   TopLoc_Location location;
   const Handle(Poly_Triangulation) made = BRep_Tool::Triangulation(face, location);
-  if (made.IsNull() || !made->HasUVNodes()) return asked_mm;
-  if (BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane) return asked_mm;
-  FaceSag sag(face, asked_mm);
+  if (made.IsNull() || !made->HasUVNodes()) return wanted_sag_mm;
+  if (BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane) return wanted_sag_mm;
+  FaceSag sag(face, wanted_sag_mm);
   for (int i = 1; i <= made->NbTriangles(); ++i) {
     std::array<int, 3> corner{};
     made->Triangle(i).Get(corner[0], corner[1], corner[2]);
@@ -92,13 +92,13 @@ bool has_flat_faces_only(const TopoDS_Shape& shape) {
   return true;
 }
 
-double largest_sag_found(const TopoDS_Shape& shape, double asked_mm) {
-  double largest = asked_mm;
+double largest_sag_found(const TopoDS_Shape& shape, double wanted_sag_mm) {
+  double largest = wanted_sag_mm;
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next())
-    largest = std::max(largest, sag_of_face(TopoDS::Face(at.Current()), asked_mm));
-  // The mesher stops where it is within the last digits of what it was asked for.
+    largest = std::max(largest, sag_of_face(TopoDS::Face(at.Current()), wanted_sag_mm));
+  // The mesher stops where it is within the last digits of what was requested of it.
   constexpr double kRounding = 1.001;
-  return largest > asked_mm * kRounding ? largest : asked_mm;
+  return largest > wanted_sag_mm * kRounding ? largest : wanted_sag_mm;
 }
 
 }  // namespace strake::import_step

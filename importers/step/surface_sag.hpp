@@ -10,9 +10,9 @@ namespace strake::import_step {
 [[nodiscard]] bool has_flat_faces_only(const TopoDS_Shape& shape);
 
 /// Returns how far at most the triangles that Open CASCADE has made of the faces of a shape lie
-/// from its surfaces, mm: what the mesher was asked for, or what is found at the middles of
+/// from its surfaces, mm: what was requested of the mesher, or what is found at the middles of
 /// triangles and of their sides, if that is more. The mesher gives up on a face after so many
 /// attempts, and says nothing then.
-[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape, double asked_mm);
+[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape, double wanted_sag_mm);
 
 }  // namespace strake::import_step

@@ -82,7 +82,7 @@ def run_apart(path: Path, kernel: str, sag_m: float, limit_s: int) -> dict[str, 
     ]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=10 * limit_s, check=False)
     shapes: dict[int, dict[str, object]] = {}
-    told: dict[int, dict[str, object]] = {}
+    item_counts: dict[int, dict[str, object]] = {}
     cpu: object = None
     for text in ended.stdout.splitlines():
         try:
@@ -94,10 +94,10 @@ def run_apart(path: Path, kernel: str, sag_m: float, limit_s: int) -> dict[str, 
         if "done" in line:
             cpu = line["cpu_s"]
         elif "items" in line:
-            told[line["n"]] = line
+            item_counts[line["n"]] = line
         elif line.get("triangles"):
             shapes[line["n"]] = line
-    return {"shapes": shapes, "products": told, "cpu_s": cpu, "status": ended.returncode, "said": ended.stderr[-300:]}
+    return {"shapes": shapes, "products": item_counts, "cpu_s": cpu, "status": ended.returncode, "said": ended.stderr[-300:]}
 
 
 def disagrees(mine: dict[str, object], exact: dict[str, object], items: list[str]) -> bool:

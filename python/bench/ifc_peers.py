@@ -209,32 +209,32 @@ def compare(a: File, b: File, tree: Any, tolerance_mm: float, clearance_mm: floa
         return strake.clash(model, a=in_a, b=~in_a, clearance=clearance_mm, touch_overlap=tolerance_mm, thickness_cap=False)
 
     cpu, wall, found = seconds(find, REPEAT)
-    judged = {tuple(name[1:] for name in sorted((one.a_id, one.b_id))): one for one in found}
+    separations = {tuple(name[1:] for name in sorted((one.a_id, one.b_id))): one for one in found}
     print(f"\n### {a.path.name} against {b.path.name}\n\n| what | pairs | CPU s | s |\n|---|---|---|---|")
     of_kind = Counter(one.kind.name for one in found)
     print(f"| strake: {', '.join(f'{of_kind[k]} {k}' for k in sorted(of_kind))} | {len(found)} | {cpu:.4f} | {wall:.4f} |")
-    said: dict[str, set[Pair]] = {}
+    found_by: dict[str, set[Pair]] = {}
     for name, call in peers(tree, a, b, tolerance_mm, clearance_mm):
         cpu, wall, results = seconds(call, REPEAT)
-        said[name] = in_order(results, a, b)
-        print(f"| {name} | {len(said[name])} | {cpu:.4f} | {wall:.4f} |")
+        found_by[name] = in_order(results, a, b)
+        print(f"| {name} | {len(found_by[name])} | {cpu:.4f} | {wall:.4f} |")
     if ".ifczip" not in (a.path.suffix.lower(), b.path.suffix.lower()):
         cpu, wall, packaged = seconds(lambda: by_ifcclash(a.path, b.path, tolerance_mm))
         print(f"| ifcclash, intersection, with reading | {len(packaged)} | {cpu:.2f} | {wall:.2f} |")
     of_strake = {
-        "intersection": {pair for pair, one in judged.items() if one.kind == strake.Kind.HIT},
-        "collision": {pair for pair, one in judged.items() if one.separation < -GRID_MM},
-        "collision or touch": {pair for pair, one in judged.items() if one.separation <= GRID_MM},
-        "clearance": set(judged),
+        "intersection": {pair for pair, one in separations.items() if one.kind == strake.Kind.HIT},
+        "collision": {pair for pair, one in separations.items() if one.separation < -GRID_MM},
+        "collision or touch": {pair for pair, one in separations.items() if one.separation <= GRID_MM},
+        "clearance": set(separations),
     }
-    for name, theirs in said.items():
+    for name, theirs in found_by.items():
         ours = of_strake[name.split(",")[0] if "," in name else name.rsplit(" ", 2)[0] if name.startswith("clearance") else name]
         print(f"\n{name}: {len(ours & theirs)} in both, {len(ours - theirs)} of strake alone, {len(theirs - ours)} of IfcOpenShell alone")
         for who, some in (("strake", ours - theirs), ("IfcOpenShell", theirs - ours)):
-            told = sorted((why(judged.get(pair), tolerance_mm), described(pair, a, b, judged)) for pair in some)
-            for reason, count in sorted(Counter(reason for reason, _ in told).items()):
+            reasons = sorted((why(separations.get(pair), tolerance_mm), described(pair, a, b, separations)) for pair in some)
+            for reason, count in sorted(Counter(reason for reason, _ in reasons).items()):
                 print(f"  {who} alone, {reason}: {count}")
-                print("".join(f"    {text}\n" for other, text in told if other == reason), end="")
+                print("".join(f"    {text}\n" for other, text in reasons if other == reason), end="")
 
 
 def why(one: Any, tolerance_mm: float) -> str:
@@ -250,9 +250,9 @@ def why(one: Any, tolerance_mm: float) -> str:
     return "apart" if one.separation > 0 else "deeper than the tolerance"
 
 
-def described(pair: Pair, a: File, b: File, judged: dict[Pair, Any]) -> str:
+def described(pair: Pair, a: File, b: File, separations: dict[Pair, Any]) -> str:
     """One pair that they judge differently, with what decides."""
-    one = judged.get(pair)
+    one = separations.get(pair)
     volume = common_volume(a.triangles[pair[0]], b.triangles[pair[1]])
     ours = "nothing" if one is None else f"{one.kind.name} {one.relation.name} {one.separation:.6f} mm"
     return f"{a.label(pair[0])} {pair[0]} and {b.label(pair[1])} {pair[1]}: {ours}, {volume}"

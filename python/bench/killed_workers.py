@@ -20,7 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ships_by_tiles import make_ships, spent, tell
+from ships_by_tiles import make_ships, print_cost, spent
 
 import strake
 import strake.cluster
@@ -61,10 +61,10 @@ def whole_run(file: Path, clashes: Path, drawing: Path) -> None:
     """What one process does without tiles."""
     model = strake.load(file, threads=1)
     strake.clash(model, threads=1, **CLASH).save(clashes, threads=1)
-    tell("one process, clashes", *spent())
+    print_cost("one process, clashes", *spent())
     before = spent()[0]
     strake.draw(model, threads=1, **VIEW).save(drawing, threads=1)
-    tell("one process, drawing", spent()[0] - before, spent()[1])
+    print_cost("one process, drawing", spent()[0] - before, spent()[1])
 
 
 def main() -> None:
@@ -93,9 +93,9 @@ def main() -> None:
             run(scheduler=client, folder=work, memory=given.memory, threads=1).save(result, threads=1)
             lived = client.run(spent)
         killed = len(list(work.glob("*.killed")))
-        tell(f"{what}: cut, join, write", spent()[0] - before, spent()[1], f"{time.perf_counter() - wall:.0f} s wall, {killed} killed")
+        print_cost(f"{what}: cut, join, write", spent()[0] - before, spent()[1], f"{time.perf_counter() - wall:.0f} s wall, {killed} killed")
         for number, (cpu, peak) in enumerate(lived.values(), 1):
-            tell(f"{what}: worker {number}", cpu, peak)
+            print_cost(f"{what}: worker {number}", cpu, peak)
         if killed != 2:
             sys.exit("there were not two to kill: give more objects")
     process = multiprocessing.get_context("spawn").Process(target=whole_run, args=(file, results["whole.json"], results["whole.svg"]))

@@ -41,7 +41,7 @@ def spent(who: int = resource.RUSAGE_SELF) -> tuple[float, float]:
     return usage.ru_utime + usage.ru_stime, peak / 1024
 
 
-def tell(what: str, cpu: float, peak: float, rest: str = "") -> None:
+def print_cost(what: str, cpu: float, peak: float, rest: str = "") -> None:
     print(f"{what:<28}{cpu:9.1f} s CPU{peak:9.0f} MiB{'  ' if rest else ''}{rest}", flush=True)
 
 
@@ -78,7 +78,7 @@ def make_ships(folder: Path, ships: int, objects: int) -> list[Path]:
 def whole_run(files: list[Path], output: Path, test: dict[str, Any]) -> None:
     """What one process does without tiles."""
     strake.clash(strake.load(files, threads=1), threads=1, within_files=WITHIN_FILES, **test).save(output, threads=1)
-    tell("one process, no tiles", *spent())
+    print_cost("one process, no tiles", *spent())
 
 
 def main() -> None:
@@ -96,7 +96,7 @@ def main() -> None:
 
     given.folder.mkdir(parents=True, exist_ok=True)
     files = make_ships(given.folder, given.ships, given.objects)
-    tell("making ships, the largest", *spent(resource.RUSAGE_CHILDREN))
+    print_cost("making ships, the largest", *spent(resource.RUSAGE_CHILDREN))
     test = {"clearance": given.clearance, "contacts": given.contacts}
     tiled, whole = given.folder / "tiled.json", given.folder / "whole.json"
     started, wall = spent()[0], time.perf_counter()
@@ -108,10 +108,10 @@ def main() -> None:
         of_workers = client.run(spent)
     found = spent()[0]
     clashes.save(tiled, threads=1)
-    tell("cut and join", found - started, spent()[1], f"{time.perf_counter() - wall:.0f} s wall")
+    print_cost("cut and join", found - started, spent()[1], f"{time.perf_counter() - wall:.0f} s wall")
     for number, (cpu, peak) in enumerate(of_workers.values(), 1):
-        tell(f"worker {number}", cpu, peak)
-    tell("writing JSON", spent()[0] - found, spent()[1])
+        print_cost(f"worker {number}", cpu, peak)
+    print_cost("writing JSON", spent()[0] - found, spent()[1])
     print(f"{len(clashes.model)} objects, {clashes.summary}, {tiled.stat().st_size / 1e6:.1f} MB")
     if given.tiles_only:
         return

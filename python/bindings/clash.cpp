@@ -144,7 +144,7 @@ Status apply_form(const WrittenForm& form, report::ClashContents& contents) {
   contents.shown = publish::model_shown(form.page_geometry);
   contents.bcf.version_3 = form.bcf_3;
   contents.bcf.contacts = form.bcf_contacts;
-  contents.bcf.most = form.bcf_most;
+  contents.bcf.max_topics = form.bcf_most;
   if (!form.bcf_date.empty()) {
     const Result<std::string> date = publish::bcf_date(form.bcf_date);
     if (!date) return in_argument(date.error(), "bcf_date");
@@ -167,7 +167,7 @@ Status write_file(const std::filesystem::path& path, Write&& write) {
   return written ? file->commit() : written;
 }
 
-/// Writes as the suffix of the path asks for.
+/// Writes as the suffix of the path requests.
 void save(const RunPointer& run, const std::filesystem::path& path, const WrittenForm& form,
           const RunOptions& options) {
   const auto writer = value_or_raise(publish::find_clash_writer(path.string()));
@@ -194,7 +194,7 @@ void save_pair_log(const RunPointer& run, const std::filesystem::path& path, con
 nb::tuple save_pictures(const RunPointer& run, const std::filesystem::path& folder,
                         std::size_t most, bool png, const RunOptions& options) {
   pictures::FolderOptions how;
-  how.most = most;
+  how.max_pictures = most;
   how.format = png ? pictures::PictureFormat::png : pictures::PictureFormat::svg;
   const pictures::FolderCount count =
       python::run(options, "draw pictures",
@@ -212,7 +212,7 @@ nb::object rows(const RunPointer& run, const RunOptions& options) {
   }));
 }
 
-/// What a run is asked for.
+/// What is requested of a run.
 void bind_request(nb::module_& module) {
   nb::class_<Pick>(module, "Pick")
       .def(

@@ -17,7 +17,7 @@
 
 namespace strake::python {
 
-/// What a clash run is asked for.
+/// What is requested of a clash run.
 struct ClashRequest {
   Pick a, b;
   bool within_files = false;
@@ -26,7 +26,7 @@ struct ClashRequest {
   std::optional<double> touch_gap_mm, touch_overlap_mm, contact_distance_mm;
   bool thickness_cap = true, volumes = false, curves = false;
   std::string contacts = "list";  ///< "list", "count" or "off"
-  std::uint64_t regions = clash::EngineOptions{}.most_regions;
+  std::uint64_t regions = clash::EngineOptions{}.max_regions;
   std::string group_by;  ///< empty: no groups
   std::optional<double> group_distance_mm;
   bool group_contacts = false;
@@ -41,7 +41,7 @@ struct WrittenForm {
   std::vector<std::string> columns;
   std::string csv, page_geometry, bcf_date, bcf_author;  ///< empty: as by default
   bool bcf_3 = false, bcf_contacts = false;
-  std::size_t bcf_most = report::BcfForm{}.most;
+  std::size_t bcf_most = report::BcfForm{}.max_topics;
 };
 
 /// What a clash run found, with what it is written with.

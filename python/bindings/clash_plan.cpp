@@ -74,7 +74,7 @@ Status ClashPlanner::read_test() {
   if (request.volumes) engine.volumes = clash::Volumes::on;
   if (request.curves) engine.curves = clash::Curves::on;
   if (request.contacts != "list") engine.contacts = clash::Contacts::count;
-  engine.most_regions = request.regions;
+  engine.max_regions = request.regions;
   engine.log_pairs = request.log_pairs;
   if (request.list_exempted && !file_ && !profile_)
     return Error{ErrorCode::usage, "there are no rules that exempt", "list_exempted",
@@ -174,9 +174,9 @@ Result<rules::Plan> ClashPlanner::plan_by_rules(const model::Scene& scene, Reque
   Result<rules::Plan> applied = profile_->plan(scene, std::move(facts.profile), context);
   if (!applied) return applied.error();
   plan.tests.front().policy = std::move(applied->tests.front().policy);
-  for (const Diagnostic& told : applied->diagnostics.kept())
-    if (told.code != rules::kMatchesNothing && told.code != rules::kShadowed)
-      plan.diagnostics.add(told);
+  for (const Diagnostic& diagnostic : applied->diagnostics.kept())
+    if (diagnostic.code != rules::kMatchesNothing && diagnostic.code != rules::kShadowed)
+      plan.diagnostics.add(diagnostic);
   return plan;
 }
 

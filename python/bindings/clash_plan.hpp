@@ -26,7 +26,7 @@ struct RequestFacts {
   void append(const RequestFacts& more);
 };
 
-/// A clash run as it is asked for, its rules and lengths parsed.
+/// A clash run as it is requested, its rules and lengths parsed.
 class ClashPlanner {
  public:
   /// The request must outlive this. Errors: usage, input.

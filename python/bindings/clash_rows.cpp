@@ -18,7 +18,7 @@ namespace {
 
 std::array<double, 3> numbers(const geometry::Vec3d& v) { return {v.x, v.y, v.z}; }
 
-/// A row takes less time than to ask for it.
+/// A row takes less time than to request it.
 constexpr std::size_t kRowsAtOnce = 8192;
 
 ClashRow row_of(std::uint32_t test, const clash::Pair& pair) {

@@ -61,7 +61,7 @@ Status set_perspective(const DrawRequest& request, hlr::View& view) {
   perspective.target = *target;
   perspective.near_mm = request.near_mm.value_or(perspective.near_mm);
   perspective.field_of_view_deg = request.field_of_view_deg.value_or(perspective.field_of_view_deg);
-  const Result<drawing::Direction> direction = drawing::see_from(perspective, view);
+  const Result<drawing::Direction> direction = drawing::set_perspective(perspective, view);
   return direction ? Status{} : Status(in_argument(direction.error(), "target"));
 }
 

@@ -76,7 +76,7 @@ Result<std::shared_ptr<const drawing::ObjectStyles>> styles_of(const DrawRequest
                                                                const parallel::Context& context) {
   constexpr const char* kStyle = "style";
   if (request.styles.empty()) return std::shared_ptr<const drawing::ObjectStyles>();
-  if (request.styles.size() > drawing::kMostObjectStyles)
+  if (request.styles.size() > drawing::kMaxObjectStyles)
     return Error{ErrorCode::usage, "there are more than 1000 styles", kStyle,
                  "give those that are seen"};
   drawing::ObjectStyles styles(scene.model->objects.size());
@@ -154,7 +154,7 @@ Status put_on_paper(const DrawRequest& request, const DrawJob& job, const hlr::D
 
 namespace {
 
-/// Returns the scene of a model, with thin pipes as lines where a job asks for them.
+/// Returns the scene of a model, with thin pipes as lines where a job requests them.
 Result<std::shared_ptr<const model::Scene>> drawn_scene(LoadedModel& model,
                                                         const DrawRequest& request,
                                                         const DrawJob& job,

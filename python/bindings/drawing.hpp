@@ -16,7 +16,7 @@
 
 namespace strake::python {
 
-/// What a drawing is asked for. Texts are those of the program's options of the same names.
+/// What is requested of a drawing. Texts are those of the program's options of the same names.
 struct DrawRequest {
   std::string view, direction, up;
   std::optional<std::array<double, 3>> eye, target;  ///< mm

@@ -37,7 +37,7 @@ namespace strake::python {
 
 Result<std::shared_ptr<const model::Scene>> LoadedModel::scene(const model::SceneOptions& options,
                                                                const parallel::Context& context) {
-  constexpr std::size_t kMostKept = 2;
+  constexpr std::size_t kMaxKept = 2;
   const auto is_wanted = [&](const Kept& kept) {
     const model::SceneOptions& o = kept.options;
     return o.sag_mm == options.sag_mm && o.physical == options.physical &&
@@ -56,7 +56,7 @@ Result<std::shared_ptr<const model::Scene>> LoadedModel::scene(const model::Scen
   auto scene = std::make_shared<const model::Scene>(std::move(*made));
   const std::lock_guard lock(mutex_);
   kept_.insert(kept_.begin(), Kept{options, scene});
-  if (kept_.size() > kMostKept) kept_.pop_back();
+  if (kept_.size() > kMaxKept) kept_.pop_back();
   return scene;
 }
 

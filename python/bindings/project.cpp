@@ -37,7 +37,7 @@ ModelPointer model_of(const std::filesystem::path& path, const RunOptions& optio
 }
 
 /// Names of columns, then the rows.
-nb::tuple list_of(const std::filesystem::path& path, std::string_view kind, std::uint64_t most,
+nb::tuple list_of(const std::filesystem::path& path, std::string_view kind, std::uint64_t limit,
                   const RunOptions& options) {
   const auto found = std::ranges::find(project::kListNames, kind);
   if (found == project::kListNames.end())
@@ -48,7 +48,7 @@ nb::tuple list_of(const std::filesystem::path& path, std::string_view kind, std:
       run(options, "list", [&](const parallel::Context& context) -> Result<project::Listing> {
         Result<project::Project> opened = project::Project::open(path, {});
         if (!opened) return opened.error();
-        return project::list(*opened, which, most, context);
+        return project::list(*opened, which, limit, context);
       });
   return nb::make_tuple(listing.columns, listing.rows);
 }

@@ -17,9 +17,9 @@ namespace strake::python {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{50};
+constexpr std::chrono::milliseconds kBetweenPolls{50};
 
-void tell(const nb::object& progress, const parallel::Progress& of, const char* what) {
+void call_progress(const nb::object& progress, const parallel::Progress& of, const char* what) {
   if (progress.is_none()) return;
   const parallel::Progress::Snapshot now = of.snapshot();
   const double fraction =
@@ -34,7 +34,7 @@ void tell(const nb::object& progress, const parallel::Progress& of, const char* 
 
 bool is_over(const std::future<void>& job) {
   const nb::gil_scoped_release others_may_run;
-  return job.wait_for(kBetweenLooks) == std::future_status::ready;
+  return job.wait_for(kBetweenPolls) == std::future_status::ready;
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void run_watched(const RunOptions& options, const char* what,
     if (raised) continue;
     try {
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      tell(options.progress, progress, what);
+      call_progress(options.progress, progress, what);
     } catch (const nb::python_error& error) {
       raised.emplace(error);
       stop.request_stop();

@@ -47,7 +47,7 @@ struct Picks {
   PickedByEach drawn, uncut;
 };
 
-Status cut_files(CutDrawing& made, std::uint64_t most_bytes, const parallel::Context& context) {
+Status cut_files(CutDrawing& made, std::uint64_t max_bytes, const parallel::Context& context) {
   const DrawRequest& request = made.request;
   const Result<tiles::Keep> keep = tiles::kept_for(made.job.view);
   if (!keep) return keep.error();
@@ -87,7 +87,7 @@ Status cut_files(CutDrawing& made, std::uint64_t most_bytes, const parallel::Con
   made.cut.view = made.job.view;
   made.cut.options = made.job.options;
   made.cut.drawn = made.job.drawn;
-  return tiles::cut_view(made.cut, most_bytes, context);
+  return tiles::cut_view(made.cut, max_bytes, context);
 }
 
 /// Errors: usage, for what is looked up in the model when lines are on paper, or changes the model.
@@ -105,7 +105,7 @@ Status check_request(const DrawRequest& request, const DrawJob& job) {
 
 std::shared_ptr<CutDrawing> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
                                 std::optional<int> up_axis, bool on_map, const Path& importers,
-                                const DrawRequest& request, std::uint64_t most_bytes,
+                                const DrawRequest& request, std::uint64_t max_bytes,
                                 const Path& folder, const RunOptions& options) {
   Result<DrawJob> job = job_of(request);
   if (!job) raise(job.error());
@@ -118,7 +118,7 @@ std::shared_ptr<CutDrawing> cut(const std::vector<Path>& paths, std::optional<do
                  reader_of(paths, unit_mm, up_axis, on_map, importers, folder),
                  {}});
   run_status(options, "cut", [&](const parallel::Context& context) {
-    return cut_files(*made, most_bytes, context);
+    return cut_files(*made, max_bytes, context);
   });
   return made;
 }
@@ -185,7 +185,7 @@ void bind_tiled_drawing(nb::module_& module) {
                    [](const CutDrawing& made) { return made.cut.outline.extents.size(); });
   module.def("cut_drawing", &cut, nb::arg("paths"), nb::arg("unit_mm").none(),
              nb::arg("up_axis").none(), nb::arg("on_map"), nb::arg("importers"), nb::arg("request"),
-             nb::arg("most_bytes"), nb::arg("folder"), nb::arg("options"));
+             nb::arg("max_bytes"), nb::arg("folder"), nb::arg("options"));
   module.def("write_drawing_tiles", &write, nb::arg("cut"), nb::arg("folder"), nb::arg("tiles"),
              nb::arg("options"));
   module.def("draw_in_tile", &solve, nb::arg("tile"), nb::arg("found"), nb::arg("options"));

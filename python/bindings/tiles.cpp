@@ -56,7 +56,7 @@ RequestFacts in_order(const tiles::Outline& outline, const std::vector<RequestFa
   return all;
 }
 
-Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& context) {
+Status cut_files(Cut& made, std::uint64_t max_bytes, const parallel::Context& context) {
   const Result<ClashPlanner> planner = ClashPlanner::of(made.request);
   if (!planner) return planner.error();
   tiles::CutRun& run = made.run;
@@ -79,19 +79,19 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
   Result<rules::Plan> plan = planner->plan(scene, std::move(all), context);
   if (!plan) return plan.error();
   run.plan = std::move(*plan);
-  tiles::cut(run, most_bytes);
+  tiles::cut(run, max_bytes);
   return {};
 }
 
 std::shared_ptr<Cut> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
                          std::optional<int> up_axis, bool on_map, const Path& importers,
-                         const ClashRequest& request, std::uint64_t most_bytes, const Path& folder,
+                         const ClashRequest& request, std::uint64_t max_bytes, const Path& folder,
                          const RunOptions& options) {
   const auto made = std::make_shared<Cut>();
   made->request = request;
   made->reader.emplace(reader_of(paths, unit_mm, up_axis, on_map, importers, folder));
   run_status(options, "cut", [&](const parallel::Context& context) {
-    return cut_files(*made, most_bytes, context);
+    return cut_files(*made, max_bytes, context);
   });
   return made;
 }
@@ -162,7 +162,7 @@ void bind_tiles(nb::module_& module) {
       .def_prop_ro("sizes", &sizes)
       .def_prop_ro("objects", [](const Cut& cut) { return cut.run.outline.extents.size(); });
   module.def("cut", &cut, nb::arg("paths"), nb::arg("unit_mm").none(), nb::arg("up_axis").none(),
-             nb::arg("on_map"), nb::arg("importers"), nb::arg("request"), nb::arg("most_bytes"),
+             nb::arg("on_map"), nb::arg("importers"), nb::arg("request"), nb::arg("max_bytes"),
              nb::arg("folder"), nb::arg("options"));
   module.def("tile_file", &tiles::tile_file, nb::arg("folder"), nb::arg("tile"));
   module.def("write_tiles", &write, nb::arg("cut"), nb::arg("folder"), nb::arg("tiles"),

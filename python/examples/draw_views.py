@@ -22,8 +22,8 @@ section = strake.draw(model, {"view": "top", "section": "z=4500mm"}, scale=100, 
 section.save(folder / "deck.svg")
 
 # %% In perspective, pipes only
-seen = strake.draw(model, {"eye": (20_000, -9_000, 6_000), "target": (3_000, 0, 3_000)}, select="PIP*")
-seen.save(folder / "pipes.svg")
+perspective = strake.draw(model, {"eye": (20_000, -9_000, 6_000), "target": (3_000, 0, 3_000)}, select="PIP*")
+perspective.save(folder / "pipes.svg")
 
 # %% Millimetres of ink by kind of line
 lines = drawing.lines

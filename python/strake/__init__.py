@@ -73,7 +73,7 @@ __all__ = [
     "run_program",
 ]
 
-# What is asked for is loaded then: an importer, which is a program of its own, needs none of it.
+# What is requested is loaded then: an importer, which is a program of its own, needs none of it.
 _MODULE_OF = {
     name: module
     for module, names in {

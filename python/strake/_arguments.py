@@ -21,8 +21,8 @@ Length: TypeAlias = float | str
 PathLike: TypeAlias = str | os.PathLike[str]
 Selection: TypeAlias = str | Sequence[str] | npt.NDArray[np.bool_]
 
-MOST_THREADS = 1024
-MOST_COUNT = 2**32 - 1
+MAX_THREADS = 1024
+MAX_COUNT = 2**32 - 1
 LONGEST_MM = 1e6
 """A kilometre: the longest distance that the program takes."""
 
@@ -53,8 +53,8 @@ def thread_count(value: Any, name: str) -> int:
     """A number of threads. Raises: UsageError outside 1 to 1024."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise UsageError(f"{shown(value)} is no whole number", name)
-    if not 1 <= value <= MOST_THREADS:
-        raise UsageError(f"{shown(value)} is no number of threads", name, f"write 1 to {MOST_THREADS}")
+    if not 1 <= value <= MAX_THREADS:
+        raise UsageError(f"{shown(value)} is no number of threads", name, f"write 1 to {MAX_THREADS}")
     return int(value)
 
 
@@ -112,8 +112,8 @@ def count(value: Any, name: str) -> int:
     exact = number(value, name)
     if exact < 0 or exact != int(exact):
         raise UsageError(f"{shown(value)} is no count", name, "write a whole number, 0 or more")
-    if exact > MOST_COUNT:
-        raise UsageError(f"{shown(value)} is too large", name, f"write {MOST_COUNT} at most")
+    if exact > MAX_COUNT:
+        raise UsageError(f"{shown(value)} is too large", name, f"write {MAX_COUNT} at most")
     return int(value)
 
 

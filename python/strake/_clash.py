@@ -503,24 +503,24 @@ def request_of(objects: int, a: Selection | None, b: Selection | None, **options
     Raises: UsageError; TypeError for an option that clash() has not.
     """
     check_names(options, CLASH_OPTIONS, "clash")
-    told = CLASH_OPTIONS | options
+    settings = CLASH_OPTIONS | options
     request = _core.ClashRequest()
     request.a = pick(a, objects, "a")
     request.b = pick(b, objects, "b")
-    if told["rules"] is not None:
-        said = {"a": a is not None, "b": b is not None} | {name: told[name] != CLASH_OPTIONS[name] for name in _OF_RULES}
-        said["profile"] = bool(told["profile"])
-        _refuse_beside_rules(said)
-    for name, value in told.items():
+    if settings["rules"] is not None:
+        given_options = {"a": a is not None, "b": b is not None} | {name: settings[name] != CLASH_OPTIONS[name] for name in _OF_RULES}
+        given_options["profile"] = bool(settings["profile"])
+        _refuse_beside_rules(given_options)
+    for name, value in settings.items():
         field, made = _TAKES[name]
         setattr(request, field, made(value, name))
     listed = request.contacts == "list" and (not request.classes or "contact" in request.classes)
     if request.group_contacts and not listed:
         raise UsageError("contacts that are not listed cannot be put into groups", "group_contacts")
-    if (request.group_distance_mm is not None or request.group_contacts) and told["group_by"] is None:
+    if (request.group_distance_mm is not None or request.group_contacts) and settings["group_by"] is None:
         where = "group_contacts" if request.group_distance_mm is None else "group_distance"
         raise UsageError("there are no groups", where, "give group_by")
-    if request.sort == "size" and told["group_by"] is None:
+    if request.sort == "size" and settings["group_by"] is None:
         raise UsageError("only groups have a size", "sort", "give group_by")
     request.volumes = request.volumes or request.sort == "volume"
     return request
@@ -555,8 +555,8 @@ def clearance_text(clearance: Length, name: str = "clearance") -> str:
     return text(clearance, name) if isinstance(clearance, str) else f"{length(clearance, name)!r}mm"
 
 
-def _refuse_beside_rules(said: Mapping[str, bool]) -> None:
-    for name, is_given in said.items():
+def _refuse_beside_rules(given_options: Mapping[str, bool]) -> None:
+    for name, is_given in given_options.items():
         if is_given:
             raise UsageError("a rules file says this itself", name, "leave it out, or write it there")
 

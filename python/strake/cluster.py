@@ -36,11 +36,11 @@ from strake._model import Model, read_arguments
 __all__ = ["clash", "draw"]
 
 # How often a tile is made or tested again before the run gives up.
-_MOST_TRIES = 4
+_MAX_TRIES = 4
 # What a worker takes before it has a tile: Python, NumPy, Dask and this package.
 _EMPTY_WORKER = 200 * 2**20
-_LEAST_MEMORY = 2 * _EMPTY_WORKER
-_MOST_MEMORY = 2**60
+_MIN_MEMORY = 2 * _EMPTY_WORKER
+_MAX_MEMORY = 2**60
 _LOST = "is missing or damaged"
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
 
@@ -295,7 +295,7 @@ class _Run(Generic[_CutT, _RunT]):
             waiting -= 1
             if error is None:
                 continue
-            if not _is_lost(error) or self._tries[tile] >= _MOST_TRIES:
+            if not _is_lost(error) or self._tries[tile] >= _MAX_TRIES:
                 raise error
             self.write([tile])
             self._submit(tile)
@@ -314,7 +314,7 @@ class _Run(Generic[_CutT, _RunT]):
                 return self._job.join(self._cut, [self._found(tile) for tile in tiles], self._options)
             except InputError as error:
                 tile = _tile_of(error)
-                if tile is None or self._tries[tile] >= _MOST_TRIES:
+                if tile is None or self._tries[tile] >= _MAX_TRIES:
                     raise
                 self.find([tile])
 
@@ -379,6 +379,6 @@ def _bytes(memory: str | int) -> int:
         size = float(written[1]) * unit
     else:
         size = number(memory, "memory")
-    if size < _LEAST_MEMORY:
-        raise UsageError(f"{shown(memory)} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
-    return int(min(size, _MOST_MEMORY))
+    if size < _MIN_MEMORY:
+        raise UsageError(f"{shown(memory)} is too little for a worker", "memory", f"give {_MIN_MEMORY // 2**20}MiB or more")
+    return int(min(size, _MAX_MEMORY))

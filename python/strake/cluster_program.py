@@ -158,16 +158,16 @@ def _as_typed(error: Error, options: dict[str, _Option]) -> Error:
     # Names of several words are no words of a sentence; what is in quotes stands there as it was given.
     names = "|".join(name for name in word_of if "_" in name)
 
-    def told(text: str) -> str:
+    def in_program_words(text: str) -> str:
         return re.sub(rf"(?<![\w'\"/])(?:{names})(?![\w'\"/])", lambda name: word_of[name[0]], text)
 
     where = word_of.get(error.where, error.where)
-    asked = re.fullmatch(r"(give|leave out) (\w+)(?: or (\w+))?", error.mend)
-    if asked and all(name in word_of for name in asked.groups()[1:] if name):
-        mend = f"{asked[1]} {' or '.join(word_of[name] for name in asked.groups()[1:] if name)}"
+    option_mend = re.fullmatch(r"(give|leave out) (\w+)(?: or (\w+))?", error.mend)
+    if option_mend and all(name in word_of for name in option_mend.groups()[1:] if name):
+        mend = f"{option_mend[1]} {' or '.join(word_of[name] for name in option_mend.groups()[1:] if name)}"
     else:
-        mend = told(error.mend)
-    return type(error)(told(error.message), where, mend)
+        mend = in_program_words(error.mend)
+    return type(error)(in_program_words(error.message), where, mend)
 
 
 # What turns a flag of the program off, as "--volumes=false".
@@ -268,7 +268,7 @@ def _run(words: Sequence[str], line: _Line) -> None:
     if verb == "clash":
         clashes = cluster.clash(taken.files, progress=line, **taken.arguments(_CLASH))
         _write(clashes, taken, line)
-        _tell(", ".join(f"{count} {name}" for name, count in clashes.summary.items() if count), taken, line)
+        _report(", ".join(f"{count} {name}" for name, count in clashes.summary.items() if count), taken, line)
         return
     view = taken.arguments(_VIEW)
     arguments = taken.arguments(_DRAW)
@@ -276,16 +276,16 @@ def _run(words: Sequence[str], line: _Line) -> None:
     arguments["keep_hidden"] = "visible_only" not in arguments and not all(_core.shows_ink(Path(file)) for file in taken.outputs)
     drawing = cluster.draw(taken.files, view or "iso", progress=line, **arguments)
     _write(drawing, taken, line)
-    _tell(repr(drawing).strip("<>").removeprefix("strake."), taken, line)
+    _report(repr(drawing).strip("<>").removeprefix("strake."), taken, line)
 
 
 def _write(result: strake.Clashes | strake.Drawing, taken: _Words, line: _Line) -> None:
     for file in taken.outputs:
         result.save(file)
-        _tell(f"written: {file}", taken, line)
+        _report(f"written: {file}", taken, line)
 
 
-def _tell(what: str, taken: _Words, line: _Line) -> None:
+def _report(what: str, taken: _Words, line: _Line) -> None:
     line.clear()
     if not taken.quiet:
         with suppress(OSError):

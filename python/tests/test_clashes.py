@@ -158,7 +158,7 @@ def test_drawings(ship: strake.Model) -> None:
     assert drawing.scale in repr(drawing)
 
 
-def test_hidden_lines_are_found_when_they_are_asked_for(ship: strake.Model) -> None:
+def test_hidden_lines_are_found_when_they_are_requested(ship: strake.Model) -> None:
     drawing, quick = strake.draw(ship), strake.draw(ship, visible_only=True)
     assert drawing.svg == quick.svg
     assert (drawing.segments["state"] == 1).any()

@@ -106,17 +106,17 @@ def small_tiles(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
 
 
 @pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
-@pytest.mark.parametrize("most_bytes", [25_000, 80_000])
+@pytest.mark.parametrize("max_bytes", [25_000, 80_000])
 def test_same_bytes(
     tmp_path: Path,
     ship: strake.Model,
     ship_file: Path,
     small_tiles: list[int],
-    most_bytes: int,
+    max_bytes: int,
     words: list[str],
     arguments: dict[str, Any],
 ) -> None:
-    small_tiles.append(most_bytes)
+    small_tiles.append(max_bytes)
     whole = strake.clash(ship, **arguments)
     tiled = strake.cluster.clash(ship_file, **arguments)
     for name in ("clashes.json", "clashes.csv"):
@@ -185,17 +185,17 @@ def test_a_drawing_with_lost_tiles(
     tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     solve, join = _core.draw_in_tile, _core.join_drawing_tiles
-    seen: list[str] = []
+    finished: list[str] = []
 
     def solve_with_losses(tile: Path, found: Path, options: Any) -> None:
-        seen.append(tile.name)
-        if len(seen) == 2:
+        finished.append(tile.name)
+        if len(finished) == 2:
             tile.unlink()
         solve(tile, found, options)
 
     def join_with_losses(cut: Any, found: list[Path], options: Any) -> Any:
-        if "join" not in seen:
-            seen.append("join")
+        if "join" not in finished:
+            finished.append("join")
             found[1].write_bytes(found[1].read_bytes()[:-7])
         return join(cut, found, options)
 
@@ -203,7 +203,7 @@ def test_a_drawing_with_lost_tiles(
     monkeypatch.setattr(_core, "join_drawing_tiles", join_with_losses)
     tiled = strake.cluster.draw(ship_file, hidden=True)
     assert bytes_of(tiled, tmp_path, "view.svg") == bytes_of(strake.draw(ship, hidden=True), tmp_path, "view.svg")
-    assert len(seen) == len(set(seen)) + 2  # a tile and a result
+    assert len(finished) == len(set(finished)) + 2  # a tile and a result
 
 
 def test_drawings_that_make_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
@@ -227,20 +227,20 @@ def test_a_lost_tile_and_a_lost_result_are_made_again(
     tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     find, join = _core.find_in_tile, _core.join_tiles
-    seen: list[str] = []
+    finished: list[str] = []
 
     def find_with_losses(tile: Path, found: Path, options: Any) -> None:
-        seen.append(tile.name)
-        if len(seen) == 2:
+        finished.append(tile.name)
+        if len(finished) == 2:
             tile.unlink()
-        if len(seen) == 3:
+        if len(finished) == 3:
             part = next(iter(tile.parent.glob(f"{tile.stem}.file*")))
             part.write_bytes(part.read_bytes()[:-7])
         find(tile, found, options)
 
     def join_with_losses(cut: Any, found: list[Path], options: Any) -> Any:
-        if "join" not in seen:
-            seen.append("join")
+        if "join" not in finished:
+            finished.append("join")
             found[1].unlink()
             damaged = bytearray(found[2].read_bytes())
             damaged[len(damaged) // 2] ^= 1
@@ -251,7 +251,7 @@ def test_a_lost_tile_and_a_lost_result_are_made_again(
     monkeypatch.setattr(_core, "join_tiles", join_with_losses)
     tiled = strake.cluster.clash(ship_file, clearance=25)
     assert bytes_of(tiled, tmp_path) == bytes_of(strake.clash(ship, clearance=25), tmp_path)
-    assert len(seen) == len(set(seen)) + 4  # two tiles and two results
+    assert len(finished) == len(set(finished)) + 4  # two tiles and two results
 
 
 def test_tiles_that_are_always_lost_are_an_error(
@@ -393,18 +393,18 @@ def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None,
         return done.returncode, done.stderr
 
     out = tmp_path / "out.json"
-    code, told = ended("clash", ship_file, "--scheduler", "local")
-    assert code == 2 and "no file is named" in told
-    code, told = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--fail-on", "hit")
-    assert code == 2 and "--fail-on: strake clash has it on one machine only" in told
-    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--flush-seams", "off")
-    assert code == 2 and "flush seams" in told
-    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--near", "much", "--eye", "1,2,3", "--target", "9,9,9")
-    assert code == 2 and "near" in told
-    code, told = ended("clash", tmp_path / "none.glb", "--scheduler", "local", "-o", out)
-    assert code == 3 and "none.glb" in told
-    code, told = ended("clash", ship_file, "--scheduler", "tcp://127.0.0.1:1x", "-o", out)
-    assert code == 2 and ("no scheduler answers" in told or "strake[cluster]" in told)
+    code, reported = ended("clash", ship_file, "--scheduler", "local")
+    assert code == 2 and "no file is named" in reported
+    code, reported = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--fail-on", "hit")
+    assert code == 2 and "--fail-on: strake clash has it on one machine only" in reported
+    code, reported = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--flush-seams", "off")
+    assert code == 2 and "flush seams" in reported
+    code, reported = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--near", "much", "--eye", "1,2,3", "--target", "9,9,9")
+    assert code == 2 and "near" in reported
+    code, reported = ended("clash", tmp_path / "none.glb", "--scheduler", "local", "-o", out)
+    assert code == 3 and "none.glb" in reported
+    code, reported = ended("clash", ship_file, "--scheduler", "tcp://127.0.0.1:1x", "-o", out)
+    assert code == 2 and ("no scheduler answers" in reported or "strake[cluster]" in reported)
     assert not out.exists()
 
 
@@ -424,13 +424,13 @@ WRONG_WORDS = [
 ]
 
 
-@pytest.mark.parametrize(("verb", "words", "told"), WRONG_WORDS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
-def test_the_program_tells_of_its_own_words(
-    tmp_path: Path, through_python: None, ship_file: Path, verb: str, words: list[str], told: str
+@pytest.mark.parametrize(("verb", "words", "reported"), WRONG_WORDS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_reports_its_own_words(
+    tmp_path: Path, through_python: None, ship_file: Path, verb: str, words: list[str], reported: str
 ) -> None:
     done = strake.run_program([verb, ship_file, *words, "--scheduler", "local", "-o", tmp_path / "out.json"], check=False)
     assert done.returncode == 2
-    assert done.stderr.startswith(f"strake: error: {told}")
+    assert done.stderr.startswith(f"strake: error: {reported}")
     assert not re.search(r"(?<![\w'])[a-z]+_[a-z_]+", done.stderr)
 
 

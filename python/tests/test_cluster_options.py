@@ -166,7 +166,7 @@ def test_a_flag_that_is_off_is_off(rods: Path, tmp_path: Path, small_tiles: list
         assert files[0].read_bytes() == files[1].read_bytes()
 
 
-def test_wrong_words_are_told_before_anything_is_cut(rods: Path) -> None:
+def test_wrong_words_are_reported_before_anything_is_cut(rods: Path) -> None:
     with pytest.raises(strake.UsageError, match="'hits' is none of the words"):
         strake.cluster.clash(rods, classes="hits")
     with pytest.raises(strake.UsageError, match="'elements' is none of the words"):

@@ -16,19 +16,19 @@ import pytest
 import strake
 
 
-def test_progress_is_told_from_the_calling_thread(large_ship: strake.Model) -> None:
-    told: list[tuple[float, str]] = []
+def test_progress_is_reported_from_the_calling_thread(large_ship: strake.Model) -> None:
+    reported: list[tuple[float, str]] = []
     threads: set[int] = set()
 
     def progress(fraction: float, step: str) -> None:
-        told.append((fraction, step))
+        reported.append((fraction, step))
         threads.add(threading.get_ident())
 
     strake.clash(large_ship, progress=progress)
-    assert told[0] == (0.0, "clash")
-    assert told[-1] == (1.0, "clash")
-    assert all(0 <= fraction <= 1 for fraction, _ in told)
-    assert len({step for _, step in told}) > 1
+    assert reported[0] == (0.0, "clash")
+    assert reported[-1] == (1.0, "clash")
+    assert all(0 <= fraction <= 1 for fraction, _ in reported)
+    assert len({step for _, step in reported}) > 1
     assert threads == {threading.get_ident()}
 
 

@@ -98,9 +98,9 @@ def test_what_has_no_sense_is_refused_by_its_name(calls: dict[str, tuple[Call, d
                 continue  # a number, of no object
             with pytest.raises(strake.UsageError) as raised:
                 call_with(call, needed, name, value)
-            told = str(raised.value)
-            assert name in told, (name, value, told)
-            assert "incompatible function" not in told and len(told) < 400 and "\n" not in told
+            reported = str(raised.value)
+            assert name in reported, (name, value, reported)
+            assert "incompatible function" not in reported and len(reported) < 400 and "\n" not in reported
 
 
 @pytest.mark.parametrize("function", NAMES)

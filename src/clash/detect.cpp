@@ -48,7 +48,7 @@ class Engine {
         context_(context),
         rules_(
             policy, options, *scene.model,
-            changed == nullptr ? std::optional<std::span<const std::uint32_t>>() : changed->asked),
+            changed == nullptr ? std::optional<std::span<const std::uint32_t>>() : changed->tested),
         pair_tolerances_(rules_, options, *scene.model),
         cache_(list_, *scene.model) {}
 
@@ -99,7 +99,7 @@ class Engine {
     report.set_b = sets_.name_b;
     report.options = options_;
     // The baseline has no triangles to tell regions by.
-    if (!exact()) report.options.engine.most_regions = 0;
+    if (!exact()) report.options.engine.max_regions = 0;
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
     report.within_files = sets_.group.empty();
@@ -140,20 +140,20 @@ class Engine {
   /// Returns the sets without objects that the run does not ask about.
   [[nodiscard]] Sets sets_of_changed() const {
     if (changed_ == nullptr) return sets_;
-    Sets asked;
-    asked.in_a.assign(sets_.in_a.size(), false);
-    asked.in_b = asked.in_a;
-    for (const std::uint32_t o : changed_->asked) {
-      asked.in_a[o] = sets_.in_a[o];
-      asked.in_b[o] = sets_.in_b[o];
+    Sets tested;
+    tested.in_a.assign(sets_.in_a.size(), false);
+    tested.in_b = tested.in_a;
+    for (const std::uint32_t o : changed_->tested) {
+      tested.in_a[o] = sets_.in_a[o];
+      tested.in_b[o] = sets_.in_b[o];
     }
-    return asked;
+    return tested;
   }
 
   [[nodiscard]] Result<std::optional<CandidatePairs>> find_pairs() const {
     if (changed_ != nullptr)
       return find_changed_pairs(list_, sets_, rules_.reach(), changed_->change,
-                                changed_->most_box_pairs, context_);
+                                changed_->max_box_pairs, context_);
     auto all = cell_ != nullptr
                    ? find_pairs_of_cell(list_, sets_, rules_.reach(), options_, *cell_, context_)
                    : find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
@@ -229,10 +229,10 @@ class Engine {
     if (options_.engine.log_pairs)
       if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
     if (const Status s = filter_reported(results, sets_, context_, report); !s) return s;
-    if (report.options.engine.most_regions > 0 || !report.allowed.empty()) {
+    if (report.options.engine.max_regions > 0 || !report.allowed.empty()) {
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     } else {
-      // Where nothing asks for regions it would go on being the place of a pair's part results,
+      // Where nothing requests regions it would go on being the place of a pair's part results,
       // which a run that follows changes has others of.
       const Status s = parallel::for_each(
           context_, {.name = "no regions", .n = report.pairs.size(), .grain = kGrain},
@@ -277,11 +277,11 @@ class Engine {
     auto made = parallel::slots<std::uint64_t>(scene_.model->objects.size(), context_);
     if (!made) return made.error();
     std::vector<std::uint64_t>& low = *made;
-    const std::size_t n = changed_ == nullptr ? low.size() : changed_->asked.size();
+    const std::size_t n = changed_ == nullptr ? low.size() : changed_->tested.size();
     const Status hashed = parallel::for_each(
         context_, {.name = "hashes of ids", .n = n, .grain = kGrain}, [&](std::size_t i) {
           const std::uint32_t o =
-              changed_ == nullptr ? static_cast<std::uint32_t>(i) : changed_->asked[i];
+              changed_ == nullptr ? static_cast<std::uint32_t>(i) : changed_->tested[i];
           low[o] = elements.of(o).low;
         });
     if (!hashed) return hashed.error();
@@ -302,7 +302,7 @@ class Engine {
   UniquePairs unique_pairs_;
   ObjectPairs objects_;
   std::vector<Candidate> candidates_;         ///< one per unique pair
-  PartRegions regions_;                       ///< where told apart
+  PartRegions regions_;                       ///< where distinguished
   std::vector<CommonVolume> common_volumes_;  ///< where a rule or the test limits them
   std::vector<std::uint8_t> unknown_sag_;     ///< an entry for each file
 };

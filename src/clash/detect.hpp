@@ -14,9 +14,9 @@ namespace strake::clash {
 
 /// What a run over changed objects is about.
 struct ChangedObjects {
-  std::span<const Change> change;        ///< an entry per object
-  std::span<const std::uint32_t> asked;  ///< the objects that changed or are near, ascending
-  std::uint64_t most_box_pairs = 0;      ///< more are too many for a run without the others
+  std::span<const Change> change;         ///< an entry per object
+  std::span<const std::uint32_t> tested;  ///< the objects that changed or are near, ascending
+  std::uint64_t max_box_pairs = 0;        ///< more are too many for a run without the others
 };
 
 /// Returns an error where sets, options and rules do not fit a scene.

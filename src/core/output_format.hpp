@@ -33,12 +33,12 @@ template <class Writer>
   return formats;
 }
 
-/// The number of the format that a file's name asks for. Errors: usage, for a suffix that none of
+/// The number of the format that a file's name requests. Errors: usage, for a suffix that none of
 /// them has; its `where` is left to the caller, who knows the option that named the file.
 [[nodiscard]] Result<std::size_t> format_number(std::span<const OutputFormat> formats,
                                                 const std::string& file);
 
-/// The writer that a file's name asks for. Errors: those of format_number().
+/// The writer that a file's name requests. Errors: those of format_number().
 template <class Writer>
 [[nodiscard]] Result<Writer> find_writer(std::span<const Writer> table, const std::string& file) {
   const Result<std::size_t> number = format_number(formats_of(table), file);

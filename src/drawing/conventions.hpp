@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is done to the ink of a view beside choosing it: conventions of drawings, each if asked for.
+// What is done to the ink of a view beside choosing it: conventions of drawings, each if requested.
 #pragma once
 
 // Decision 0103 says what is ink and what is geometry of them.

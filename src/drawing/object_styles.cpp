@@ -33,8 +33,8 @@ std::array<NamedLine, 5> named_lines() {
            {"dotted", {1, 3}}}};
 }
 
-constexpr double kLeastDashMm = 0.01, kLongestDashMm = 1000;
-constexpr std::size_t kMostDashes = 12;
+constexpr double kMinDashMm = 0.01, kLongestDashMm = 1000;
+constexpr std::size_t kMaxDashes = 12;
 
 Error fault_of_text(std::string message) {
   return fault_of_style(
@@ -117,11 +117,11 @@ Result<LineType> parse_line_type(std::string_view text) {
   for (std::string_view rest = trimmed(text); !rest.empty();) {
     const std::size_t blank = rest.find(' ');
     const Result<double> length = parse_distance_mm(rest.substr(0, blank));
-    if (!length || !(*length >= kLeastDashMm && *length <= kLongestDashMm)) return fault;
+    if (!length || !(*length >= kMinDashMm && *length <= kLongestDashMm)) return fault;
     line.dashes.push_back(*length);
     rest = blank == std::string_view::npos ? std::string_view() : trimmed(rest.substr(blank));
   }
-  if (line.dashes.empty() || line.dashes.size() % 2 != 0 || line.dashes.size() > kMostDashes)
+  if (line.dashes.empty() || line.dashes.size() % 2 != 0 || line.dashes.size() > kMaxDashes)
     return fault;
   return line;
 }

@@ -130,7 +130,7 @@ Direction direction_between(const Vec3l& from, const Vec3l& to) {
   return rounded_direction(direction.vector.as<double>() * (1 / largest));
 }
 
-Result<Direction> see_from(const hlr::Perspective& perspective, hlr::View& view) {
+Result<Direction> set_perspective(const hlr::Perspective& perspective, hlr::View& view) {
   if (perspective.eye == perspective.target)
     return Error{ErrorCode::usage, "the eye and the target are the same point", "",
                  "give a target to look at"};

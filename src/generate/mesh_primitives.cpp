@@ -281,8 +281,8 @@ bool properly_cross(const ProfilePoint& a, const ProfilePoint& b, const ProfileP
 }
 
 /// Whether the segment between two points meets no edge that does not end in one of them.
-bool sees(const Loop& loop, std::span<const std::vector<std::uint32_t>> others,
-          const ProfilePoint& from, const ProfilePoint& to) {
+bool is_visible_from(const Loop& loop, std::span<const std::vector<std::uint32_t>> others,
+                     const ProfilePoint& from, const ProfilePoint& to) {
   const auto blocked = [&](const std::vector<std::uint32_t>& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const ProfilePoint& c = loop.points[ring[i]];
@@ -306,7 +306,7 @@ void bridge(Loop& loop, std::span<const std::vector<std::uint32_t>> holes) {
       const ProfilePoint& a = loop.points[loop.order[i]];
       const ProfilePoint& b = loop.points[hole[j]];
       const std::int64_t d = (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
-      if ((best >= 0 && d >= best) || !sees(loop, holes, a, b)) continue;
+      if ((best >= 0 && d >= best) || !is_visible_from(loop, holes, a, b)) continue;
       best = d, best_outer = i, best_hole = j;
     }
   std::vector<std::uint32_t> piece;

@@ -104,12 +104,12 @@ std::vector<bool> choose_kept(const ShipBuilder& builder, std::uint64_t wanted) 
   const auto spare = static_cast<std::uint64_t>(std::count_if(
       objects.begin(), objects.end(), [](const ShipObject& b) { return info(b.kind).optional; }));
   const std::uint64_t drop = std::min(excess, spare);
-  std::uint64_t seen = 0;
+  std::uint64_t candidates_done = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!info(objects[i].kind).optional) continue;
     // Bresenham: exactly `drop` of the `spare` fall, at even distances.
-    kept[i] = (seen + 1) * drop / spare == seen * drop / spare;
-    ++seen;
+    kept[i] = (candidates_done + 1) * drop / spare == candidates_done * drop / spare;
+    ++candidates_done;
   }
   excess -= drop;
   for (std::size_t i = objects.size(); excess > 0 && i-- > 0;)
@@ -152,7 +152,7 @@ std::string id_of(const ShipObject& built) {
                      built.cell.lane, built.cell.level, built.number);
 }
 
-/// Makes zone, deck and discipline groups as objects ask for them.
+/// Makes zone, deck and discipline groups as objects request them.
 class GroupTree {
  public:
   explicit GroupTree(model::Model& model) : model_(model) {

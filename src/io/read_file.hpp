@@ -14,7 +14,7 @@ namespace strake::io {
 
 /// A file that is alone in its model.
 struct ReadFile {
-  model::Model model;  ///< as read_models() returns it, but for what tell_of_places() tells
+  model::Model model;  ///< as read_models() returns it, but for what place_diagnostics() tells
   std::optional<MapPlace> map;  ///< where its importer says that it lies
 };
 

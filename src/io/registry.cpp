@@ -83,8 +83,8 @@ class Reading {
   Reading(const Result<ImportSettings>& settings, const parallel::Context& context)
       : importing_(settings), context_(context) {}
 
-  /// Has importers make what they read, several at once. That a file cannot be read is told when it
-  /// is its turn.
+  /// Has importers make what they read, several at once. That a file cannot be read is reported
+  /// when it is its turn.
   Status make_scenes(std::span<const FileToRead> files);
   Result<model::Model> read(std::span<const FileToRead> files);
   /// Reads one file, and tells nothing of its place.
@@ -171,7 +171,7 @@ Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   }
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   std::ranges::sort(places, {}, &FilePlace::file);
-  all.diagnostics.append(tell_of_places(places, on_map));
+  all.diagnostics.append(place_diagnostics(places, on_map));
   if (const Status finished = model::finish(all, context_); !finished) return finished.error();
   return all;
 }

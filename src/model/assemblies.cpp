@@ -41,12 +41,12 @@ const ElementType* owner_type(std::string_view name, std::string_view owner) {
   const std::size_t of = name.find(kOf);
   if (of == std::string_view::npos || of == 0 || name[of - 1] < '0' || name[of - 1] > '9')
     return nullptr;
-  const std::string_view told = name.substr(of + kOf.size());
-  const std::size_t blank = told.find(' ');
+  const std::string_view owner_text = name.substr(of + kOf.size());
+  const std::size_t blank = owner_text.find(' ');
   if (blank == std::string_view::npos) return nullptr;
   // An owner without a name of its own is called by all of the text.
-  if (told != owner && told.substr(blank + 1) != owner) return nullptr;
-  return type_called(told.substr(0, blank), &ElementType::word);
+  if (owner_text != owner && owner_text.substr(blank + 1) != owner) return nullptr;
+  return type_called(owner_text.substr(0, blank), &ElementType::word);
 }
 
 /// A group whose type is known, by its place in the hierarchy.
@@ -82,7 +82,7 @@ class KnownGroups {
   }
 
   void add(GroupId group, const ElementType* type) {
-    if (type == nullptr || !told_.insert({group, type}).second) return;
+    if (type == nullptr || !added_.insert({group, type}).second) return;
     KnownGroup& known = known_.emplace_back();
     known.type = type;
     for (GroupId g = group; exists(g) && known.path.size() <= model_.groups.size();
@@ -92,7 +92,7 @@ class KnownGroups {
   }
 
   const Model& model_;
-  std::set<std::pair<GroupId, const ElementType*>> told_;
+  std::set<std::pair<GroupId, const ElementType*>> added_;
   std::vector<KnownGroup> known_;
 };
 

@@ -26,11 +26,11 @@ class Assemblies {
  public:
   explicit Assemblies(const Model& model);
 
-  /// Whether nothing tells of any group what it is: the model is not from AVEVA.
+  /// Whether nothing shows what any group is: the model is not from AVEVA.
   [[nodiscard]] bool empty() const { return level_.empty(); }
 
   /// Returns how many groups of a path, outermost first, lead to the equipment, the structure or
-  /// the branch; 0 if there is none or nothing tells.
+  /// the branch; 0 if there is none or nothing shows.
   [[nodiscard]] std::size_t depth(std::span<const GroupId> path) const;
 
  private:

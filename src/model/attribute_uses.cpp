@@ -81,7 +81,7 @@ class AttributeCounter {
   void add_value(std::uint32_t number, std::string_view value) {
     Use& use = uses_[number];
     if (!use.values.insert(value).second) return;
-    if (use.examples.size() < AttributeUse::kMostExamples) use.examples.push_back(value);
+    if (use.examples.size() < AttributeUse::kMaxExamples) use.examples.push_back(value);
   }
 
   void add_group(std::uint32_t attributes) {
@@ -145,13 +145,13 @@ std::vector<AttributeUse> attribute_uses(const Model& model, std::size_t from, s
 }
 
 std::string no_object_states(std::string_view name, std::span<const AttributeUse> uses) {
-  constexpr std::size_t kMostNear = 3, kMostListed = 12;
+  constexpr std::size_t kMaxNear = 3, kMaxListed = 12;
   std::string text = "no object states @" + printable(name);
   if (uses.empty()) return text + ", nor any other attribute";
   std::vector<std::string_view> names = spelt_alike(name, uses);
   const bool near = !names.empty();
   if (!near) names = most_used(uses);
-  names.resize(std::min(names.size(), near ? kMostNear : kMostListed));
+  names.resize(std::min(names.size(), near ? kMaxNear : kMaxListed));
   text += near ? "; spelt alike: " : "; there are ";
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i > 0 ? ", @" : "@") + printable(names[i]);

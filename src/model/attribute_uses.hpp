@@ -14,7 +14,7 @@ namespace strake::model {
 
 /// What objects state under one name, themselves or by the nearest group above that does.
 struct AttributeUse {
-  static constexpr std::size_t kMostExamples = 3;
+  static constexpr std::size_t kMaxExamples = 3;
 
   std::string_view name;
   std::uint64_t objects = 0;               ///< that state it

@@ -52,7 +52,7 @@ void add_folders(std::vector<SourceFile>& files) {
 }
 
 /// Returns the ids of the objects of each file whose label another has, in the order of the source:
-/// they tell such files apart.
+/// they distinguish such files.
 std::vector<std::vector<std::string_view>> ids_of_namesakes(const Model& model) {
   std::map<std::string_view, std::size_t> of_label;
   for (const SourceFile& file : model.files) ++of_label[file.label];

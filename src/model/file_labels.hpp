@@ -11,7 +11,7 @@ namespace strake::model {
 /// Makes the labels of the files unique and sorts the files by them; returns the new index of each
 /// old one. It does not change the objects.
 ///
-/// Files of one label gain the innermost folders that tell them apart, each as few as that takes;
+/// Files of one label gain the innermost folders that distinguish them, each as few as that takes;
 /// those that lie in the same folders gain numbers, in the order of their content.
 [[nodiscard]] std::vector<std::uint32_t> label_and_sort_files(Model& model);
 

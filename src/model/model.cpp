@@ -179,14 +179,14 @@ Status reorder_if_needed(Model& model, const BodyOrder& order, const parallel::C
 Result<std::vector<std::size_t>> number_by_source(Model& model, const parallel::Context& context) {
   const BodyOrder renumbered = label_and_sort_files(model);
   // Each block has counts of its own, so that there are few, and long ones.
-  constexpr std::size_t kMostBlocks = 64;
+  constexpr std::size_t kMaxBlocks = 64;
   const std::size_t count = model.objects.size();
   using Counts = std::vector<std::size_t>;
   return parallel::reduce(
       context,
       {.name = "objects numbered",
        .n = count,
-       .grain = std::max(kObjectsPerBlock, (count + kMostBlocks - 1) / kMostBlocks)},
+       .grain = std::max(kObjectsPerBlock, (count + kMaxBlocks - 1) / kMaxBlocks)},
       Counts(model.files.size()),
       [&](Counts& positional, std::size_t i) {
         Object& o = model.objects[i];

@@ -174,13 +174,13 @@ void merge_piece(std::span<const KeyedText> runs, const MergePiece& piece,
   const auto y = runs.subspan(piece.middle, piece.last - piece.middle);
   // Returns how many of the first k of both are of x.
   const auto of_x = [&](std::size_t k) {
-    std::size_t least = k - std::min(k, y.size()), most = std::min(k, x.size());
-    while (least < most) {
-      const std::size_t middle = least + (most - least) / 2;
+    std::size_t least = k - std::min(k, y.size()), largest = std::min(k, x.size());
+    while (least < largest) {
+      const std::size_t middle = least + (largest - least) / 2;
       if (x[middle] < y[k - middle - 1])
         least = middle + 1;
       else
-        most = middle;
+        largest = middle;
     }
     return least;
   };

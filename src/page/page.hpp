@@ -60,7 +60,7 @@ struct PageContents {
   std::function<std::string_view(const PageRow&)> assignee = {};
   const model::Scene* scene = nullptr;  ///< of the same model
   report::ModelShown shown = report::ModelShown::automatic;
-  /// Told where the model would be if there is no scene. Empty: that it was not asked for.
+  /// Told where the model would be if there is no scene. Empty: that it was not requested.
   WithoutModel without_model = {};
   /// The objects that drawings show: in a page without results these alone are of the model.
   /// Empty: all.

@@ -18,8 +18,9 @@ namespace {
 /// Returns a number that falls as the cost grows. The bits of floats that are not negative are in
 /// order; what is no cost at all, NaN among it, counts as 0.
 std::uint32_t rank_of(double cost) {
-  const double most = std::numeric_limits<float>::max();
-  return ~std::bit_cast<std::uint32_t>(cost > 0 ? static_cast<float>(std::min(cost, most)) : 0.0F);
+  const double largest = std::numeric_limits<float>::max();
+  return ~std::bit_cast<std::uint32_t>(cost > 0 ? static_cast<float>(std::min(cost, largest))
+                                                : 0.0F);
 }
 
 struct Ranked {

@@ -29,7 +29,7 @@ Error too_many_elements() {
 
 }  // namespace
 
-Status sum_up(const Context& context, std::span<std::size_t> lengths) {
+Status prefix_sum(const Context& context, std::span<std::size_t> lengths) {
   const Region runs{.name = "sums of lengths",
                     .n = (lengths.size() + kLengthsPerRun - 1) / kLengthsPerRun};
   if (runs.n <= 1 || context.team == nullptr)

@@ -34,10 +34,10 @@ Error described(const char* what, std::string_view region, std::size_t item) {
 
 /// Whether every block occurs in the order once.
 bool is_permutation(std::span<const std::uint32_t> order) {
-  std::vector<bool> seen(order.size(), false);
+  std::vector<bool> visited(order.size(), false);
   for (const std::uint32_t block : order) {
-    if (block >= seen.size() || seen[block]) return false;
-    seen[block] = true;
+    if (block >= visited.size() || visited[block]) return false;
+    visited[block] = true;
   }
   return true;
 }
@@ -180,8 +180,8 @@ void RegionRun::deal(const Executor* team) {
     return shares_.deal(blocks_, workers, blocks_, WorkStealingShares::Rest::kept);
   // A counter may pass the last block by a chunk for each worker, and must not come round again.
   const std::size_t room = (std::numeric_limits<std::size_t>::max() - blocks_) / (workers + 1);
-  const std::size_t asked = std::max(region_.chunk, context_.least_chunk);
-  const std::size_t chunk = std::max<std::size_t>(std::min({asked, blocks_, room}), 1);
+  const std::size_t wanted = std::max(region_.chunk, context_.min_chunk);
+  const std::size_t chunk = std::max<std::size_t>(std::min({wanted, blocks_, room}), 1);
   const bool ascending = ordered_ || visit_ == Visit::ascending || blocks_ / workers < kFewBlocks;
   shares_.deal(blocks_, ascending ? 1 : workers, chunk, WorkStealingShares::Rest::free);
 }

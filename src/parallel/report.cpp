@@ -23,8 +23,8 @@ double RegionReport::total_busy_s() const {
 }
 
 double RegionReport::load_balance() const {
-  const double most = busy_s.empty() ? 0.0 : *std::max_element(busy_s.begin(), busy_s.end());
-  return most > 0 ? total_busy_s() / (static_cast<double>(busy_s.size()) * most) : 1.0;
+  const double largest = busy_s.empty() ? 0.0 : *std::max_element(busy_s.begin(), busy_s.end());
+  return largest > 0 ? total_busy_s() / (static_cast<double>(busy_s.size()) * largest) : 1.0;
 }
 
 double RegionReport::bound() const { return least_s > share_s ? share_s / least_s : 1.0; }

@@ -70,10 +70,10 @@ void Team::call_all(FunctionRef<void(Seat)> body) noexcept {
 
 void Team::serve(unsigned index) noexcept {
   // Every worker sees every generation: run() starts the next only when all have reported back.
-  std::uint32_t seen = 0;
+  std::uint32_t visited = 0;
   for (;;) {
-    wait_while(generation_, seen, spins_);
-    seen = generation_.load(std::memory_order_acquire);
+    wait_while(generation_, visited, spins_);
+    visited = generation_.load(std::memory_order_acquire);
     if (closing_.load(std::memory_order_relaxed)) return;
     (*body_)(Seat{index, size()});
     if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();

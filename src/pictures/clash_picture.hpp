@@ -22,7 +22,7 @@
 ///     const Result<std::string> png = pictures::png_of(*picture, 800, 600);
 namespace strake::pictures {
 
-/// Colours as #rrggbb. The two of a clash are told apart by all who see colours, and in grey.
+/// Colours as #rrggbb. All who see colours distinguish the two of a clash, also in grey.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
   friend bool operator==(const Colour&, const Colour&) = default;

@@ -14,7 +14,7 @@ enum class PictureFormat : std::uint8_t { svg, png };
 
 struct FolderOptions {
   PictureFormat format = PictureFormat::svg;
-  std::size_t most = 50;  ///< pictures, the worst first
+  std::size_t max_pictures = 50;  ///< pictures, the worst first
   PictureOptions picture;
   std::uint32_t width_px = 1280;  ///< of a PNG
 };

@@ -16,7 +16,7 @@ namespace strake::publish {
 /// and tables of report, then what shows the model.
 [[nodiscard]] std::vector<OutputFormat> clash_formats();
 
-/// Returns the writer that a file's name asks for. Errors: those of format_number().
+/// Returns the writer that a file's name requests. Errors: those of format_number().
 [[nodiscard]] Result<report::ClashWriter> find_clash_writer(const std::string& file);
 
 }  // namespace strake::publish

@@ -14,7 +14,7 @@ namespace strake::publish {
 [[nodiscard]] std::vector<drawing::DrawingWriter> drawing_writers();
 [[nodiscard]] std::vector<OutputFormat> drawing_formats();
 
-/// Returns the writer that a file's name asks for. Errors: those of format_number().
+/// Returns the writer that a file's name requests. Errors: those of format_number().
 [[nodiscard]] Result<drawing::DrawingWriter> find_drawing_writer(const std::string& file);
 
 }  // namespace strake::publish

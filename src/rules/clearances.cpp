@@ -108,16 +108,16 @@ class OddValues {
  private:
   /// Returns the values with the most uses, and how many more there are.
   [[nodiscard]] std::string values() const {
-    constexpr std::size_t kMost = 5;
+    constexpr std::size_t kMax = 5;
     std::vector<std::pair<std::string_view, std::uint64_t>> all(uses_.begin(), uses_.end());
     std::ranges::sort(all, [](const auto& x, const auto& y) {
       return x.second != y.second ? x.second > y.second : x.first < y.first;
     });
     std::string out;
-    for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+    for (std::size_t i = 0; i < std::min(kMax, all.size()); ++i)
       out += (i == 0 ? "" : ", ") + in_quotes(all[i].first) + " (" + std::to_string(all[i].second) +
              ")";
-    return all.size() > kMost ? out + " and " + std::to_string(all.size() - kMost) + " more" : out;
+    return all.size() > kMax ? out + " and " + std::to_string(all.size() - kMax) + " more" : out;
   }
 
   std::map<std::string_view, std::uint64_t> uses_;

@@ -14,7 +14,7 @@
 /// of their insulation.
 namespace strake::rules {
 
-// The codes of warnings about clearances that get less than they ask for.
+// The codes of warnings about clearances that get less than they request.
 inline constexpr std::string_view kNotALength = "clearance-not-a-length",
                                   kNoSuchAttribute = "clearance-attribute-missing";
 

@@ -30,7 +30,7 @@ using settings::Value;
 constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
 /// The most disciplines and the longest name. Results have a cell for each two disciplines, and
 /// every pair carries the names of its rules: a small file must not take gigabytes.
-constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
+constexpr std::size_t kMaxDisciplines = 300, kLongestName = 200;
 /// The farthest that ends of a joint may be apart: what is farther is no joint, and the search
 /// takes the longer the farther it looks.
 constexpr double kFarthestEndsMm = 1000;
@@ -119,9 +119,9 @@ class RulesParser {
   void disciplines() {
     std::vector<std::string> names;
     for (const Value* value : top_.tables("discipline")) {
-      if (names.size() == kMostDisciplines) {
+      if (names.size() == kMaxDisciplines) {
         reading_.fault(value->at,
-                       "there are more than " + std::to_string(kMostDisciplines) + " disciplines",
+                       "there are more than " + std::to_string(kMaxDisciplines) + " disciplines",
                        "join some: a matrix has a cell for each two of them");
         return;
       }

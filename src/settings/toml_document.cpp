@@ -85,9 +85,9 @@ Error fault_at(std::string_view file, SourcePosition at, std::string message, st
 
 Result<Value> parse_toml(std::string_view text, std::string_view file) {
   // The most parts of a key: twice as deep as any key of a file of settings.
-  constexpr std::size_t kMostParts = 16;
-  if (const auto at = first_deep_key(text, kMostParts))
-    return fault_at(file, *at, "a key of more than " + std::to_string(kMostParts) + " parts",
+  constexpr std::size_t kMaxParts = 16;
+  if (const auto at = first_deep_key(text, kMaxParts))
+    return fault_at(file, *at, "a key of more than " + std::to_string(kMaxParts) + " parts",
                     "no key of such a file is so deep; quote a name that has dots in it");
   const toml::parse_result parsed = toml::parse(text);
   if (parsed) return value_of(parsed.table());

@@ -49,10 +49,11 @@ struct KeyValue {
 /// column.
 [[nodiscard]] Result<Value> parse_toml(std::string_view text, std::string_view file);
 
-/// Returns the position of a dotted key of more than `most` parts, as a.b.c has three. Each part is
-/// a table within a table, and the parser, which limits the nesting of values, takes a key of any
-/// depth and overflows the stack. Of a text that is no TOML this checks the part before the first
-/// fault at least, which is as far as the parser gets.
-[[nodiscard]] std::optional<SourcePosition> first_deep_key(std::string_view text, std::size_t most);
+/// Returns the position of a dotted key of more than `limit` parts, as a.b.c has three. Each part
+/// is a table within a table, and the parser, which limits the nesting of values, takes a key of
+/// any depth and overflows the stack. Of a text that is no TOML this checks the part before the
+/// first fault at least, which is as far as the parser gets.
+[[nodiscard]] std::optional<SourcePosition> first_deep_key(std::string_view text,
+                                                           std::size_t limit);
 
 }  // namespace strake::settings

@@ -46,7 +46,7 @@ SourcePosition place_of(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::optional<SourcePosition> first_deep_key(std::string_view text, std::size_t most) {
+std::optional<SourcePosition> first_deep_key(std::string_view text, std::size_t limit) {
   std::size_t dots = 0, start = 0;  // of the key, or the value, that is being passed
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
@@ -60,7 +60,7 @@ std::optional<SourcePosition> first_deep_key(std::string_view text, std::size_t 
       start = at;
     } else if (is_blank(c) && start + 1 == at) {
       start = at;
-    } else if (c == '.' && ++dots >= most) {
+    } else if (c == '.' && ++dots >= limit) {
       return place_of(text, start);
     }
   }

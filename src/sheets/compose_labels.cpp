@@ -29,12 +29,12 @@ class LabelDiagnostics {
     for (std::size_t t = 0; t < what_.tags.size(); ++t) {
       const TagSpec& tag = what_.tags[t];
       const auto picked = static_cast<std::size_t>(std::ranges::count(picked_[t], true));
-      bool seen = false;
+      bool is_visible = false;
       for (; list != lists.end() && list->spec == &tag; ++list) {
         report(*list);
-        seen = seen || list->count.unseen < picked;
+        is_visible = is_visible || list->count.unseen < picked;
       }
-      if (!seen && picked > 0)
+      if (!is_visible && picked > 0)
         warn("tag-not-seen",
              "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
              tag.where);
@@ -61,28 +61,28 @@ class LabelDiagnostics {
     const TagCount& count = list.count;
     const std::string where =
         list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
-    const auto tell_of = [&](std::size_t number, const char* code, const std::string& one,
-                             const std::string& many) {
+    const auto report = [&](std::size_t number, const char* code, const std::string& one,
+                            const std::string& many) {
       if (number == 1) warn(code, "1 object " + one, where);
       if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
     const std::string some = " some of what '" + list.spec->text + "' names";
-    tell_of(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-            "have nothing to be tagged with");
-    tell_of(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    report(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+           "have nothing to be tagged with");
+    report(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
     const std::string& text = count.first_too_short;
     note_of(count.too_short, "tag-not-along",
             "has its tag '" + text + "' at a leader: no straight part of it has room for the text",
             "have their tags, as '" + text +
                 "', at leaders: no straight part of them has room for the text",
             where);
-    tell_of(count.crowded, "tag-no-room",
-            "is without its tag '" + count.first_crowded + "': there is no room for it" + kRoomMend,
-            "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
-                kRoomMend);
+    report(count.crowded, "tag-no-room",
+           "is without its tag '" + count.first_crowded + "': there is no room for it" + kRoomMend,
+           "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
+               kRoomMend);
   }
 
-  /// Tells of what is as good as what was asked for.
+  /// Tells of what is as good as what was requested.
   void note_of(std::size_t number, const char* code, const std::string& one,
                const std::string& many, const std::string& where) {
     if (number == 0) return;
@@ -95,11 +95,11 @@ class LabelDiagnostics {
   void report_rows(const BalloonList& list, const std::vector<std::string>& rows, const char* code,
                    const std::string& one, const std::string& many) {
     if (rows.empty()) return;
-    constexpr std::size_t kMostNamed = 10;
+    constexpr std::size_t kMaxNamed = 10;
     std::string numbers;
-    for (std::size_t r = 0; r < std::min(rows.size(), kMostNamed); ++r)
+    for (std::size_t r = 0; r < std::min(rows.size(), kMaxNamed); ++r)
       numbers += (r == 0 ? "" : ", ") + rows[r];
-    if (rows.size() > kMostNamed) numbers += " and others";
+    if (rows.size() > kMaxNamed) numbers += " and others";
     warn(code,
          rows.size() == 1
              ? "POS " + numbers + " has no balloon: " + one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The labels of a sheet, from what its file says, and what is told of them.
+// The labels of a sheet, from what its file says, and what is reported about them.
 #pragma once
 
 #include <span>

@@ -114,19 +114,19 @@ class Composer {
   Status pick() {
     std::vector<model::Selection> selections;
     std::vector<const settings::Chooser*> choosers;
-    const auto ask = [&](const settings::Chooser& chooser) {
+    const auto add_chooser = [&](const settings::Chooser& chooser) {
       selections.push_back(chooser.selection);
       choosers.push_back(&chooser);
     };
     for (const ViewSpec& view : what_.views) {
-      for (const settings::Chooser& chooser : view.select) ask(chooser);
+      for (const settings::Chooser& chooser : view.select) add_chooser(chooser);
       for (const HatchSpec& hatch : view.hatches)
-        for (const settings::Chooser& chooser : hatch.select) ask(chooser);
-      for (const settings::Chooser& chooser : view.uncut) ask(chooser);
+        for (const settings::Chooser& chooser : hatch.select) add_chooser(chooser);
+      for (const settings::Chooser& chooser : view.uncut) add_chooser(chooser);
     }
-    for (const ObjectStyleSpec& style : what_.object_styles) ask(*style.select);
-    for (const TagSpec& tag : what_.tags) ask(*tag.select);
-    for (const PartsListSpec& list : what_.parts_lists) ask(*list.select);
+    for (const ObjectStyleSpec& style : what_.object_styles) add_chooser(*style.select);
+    for (const TagSpec& tag : what_.tags) add_chooser(*tag.select);
+    for (const PartsListSpec& list : what_.parts_lists) add_chooser(*list.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
     if (!picked) return picked.error();
     picks_ = std::move(*picked);
@@ -149,8 +149,8 @@ class Composer {
     std::vector<bool> any;
     if (count == 0) return any;
     any.resize(scene_.model->objects.size());
-    for (const std::size_t end = asked_ + count; asked_ < end; ++asked_)
-      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[asked_][o];
+    for (const std::size_t end = used_ + count; used_ < end; ++used_)
+      for (std::size_t o = 0; o < any.size(); ++o) any[o] = any[o] || picks_[used_][o];
     return any;
   }
 
@@ -559,7 +559,7 @@ class Composer {
   }
 
   Status labels() {
-    const auto picked = std::span(picks_).subspan(asked_, what_.tags.size());
+    const auto picked = std::span(picks_).subspan(used_, what_.tags.size());
     return compose_labels(what_, *scene_.model, picked, notes_, room_, sheet_, context_);
   }
 
@@ -569,7 +569,7 @@ class Composer {
   const parallel::Context& context_;
   SheetArea room_;
   Picks picks_;
-  std::size_t asked_ = 0;                                   ///< how many of them have been used
+  std::size_t used_ = 0;                                    ///< how many of them have been used
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   PipeScenes pipe_scenes_;
   std::vector<hlr::Drawing> drawings_;

@@ -17,7 +17,7 @@ class PipeScenes {
  public:
   explicit PipeScenes(const model::Scene& scene) : scene_(scene) {}
 
-  /// Returns the scene of a view, which holds until the next is asked for. Views of one diameter
+  /// Returns the scene of a view, which holds until the next is requested. Views of one diameter
   /// that follow each other share it. Errors: cancelled.
   [[nodiscard]] Result<const model::Scene*> of(const ViewSpec& view,
                                                const parallel::Context& context) {

@@ -34,7 +34,7 @@ class FoundWriter {
   std::vector<std::uint64_t> counts_;  ///< pairs and regions of each test
 };
 
-/// The results of one test in a tile, of which pairs are decoded when they are asked for.
+/// The results of one test in a tile, of which pairs are decoded when they are requested.
 struct FoundTest {
   std::uint64_t pairs = 0, regions = 0;
   clash::TileReport tile;  ///< without these

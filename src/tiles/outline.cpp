@@ -35,9 +35,9 @@ std::vector<double> bytes_by_shape(const model::Scene& scene) {
 
 /// Returns how far the true surface of a shape may stand out of its box.
 std::int64_t sag_of(const model::GridShape& shape) {
-  double most = 0;
-  for (const geometry::Part& part : shape.parts) most = std::max(most, part.sag);
-  return static_cast<std::int64_t>(std::ceil(most));
+  double largest = 0;
+  for (const geometry::Part& part : shape.parts) largest = std::max(largest, part.sag);
+  return static_cast<std::int64_t>(std::ceil(largest));
 }
 
 void append_extents(const model::Scene& scene, std::vector<Extent>& extents) {
@@ -130,14 +130,14 @@ model::Scene without_triangles(model::Scene scene, const Keep& keep) {
 }
 
 /// Appends what was said of a file that has another label now.
-void append_renamed(const Diagnostics& said, std::string_view was, std::string_view now,
+void append_renamed(const Diagnostics& diagnostics, std::string_view was, std::string_view now,
                     Diagnostics& all) {
   Diagnostics renamed;
-  for (Diagnostic one : said.kept()) {
+  for (Diagnostic one : diagnostics.kept()) {
     if (was != now && one.where.starts_with(was)) one.where.replace(0, was.size(), now);
     renamed.add(std::move(one));
   }
-  for (const Diagnostics::Count& count : said.counts())
+  for (const Diagnostics::Count& count : diagnostics.counts())
     if (count.count > Diagnostics::kMaxPerCode)
       renamed.count_more(count.code, count.count - Diagnostics::kMaxPerCode);
   all.append(renamed);
@@ -233,24 +233,24 @@ class Gathering {
   }
 
   void join_diagnostics() {
-    std::vector<project::FileDiagnostics> said;
+    std::vector<project::FileDiagnostics> diagnostics;
     for (std::size_t f = 0; f < order_.size(); ++f) {
       const Remains& file = remains_[order_[f]];
       all_.renamed = all_.renamed || file.label != all_.model.files[f].label;
-      said.push_back(
+      diagnostics.push_back(
           {file.reading, file.label, all_.model.files[f].label, given_[order_[f]].path.string()});
     }
-    const Diagnostics of_places = tell_of_places();
-    all_.model.diagnostics = said.size() == 1 && of_places.counts().empty()
-                                 ? said.front().diagnostics
-                                 : project::joined_diagnostics(said, of_places);
+    const Diagnostics of_places = place_diagnostics();
+    all_.model.diagnostics = diagnostics.size() == 1 && of_places.counts().empty()
+                                 ? diagnostics.front().diagnostics
+                                 : project::joined_diagnostics(diagnostics, of_places);
     all_.loading = all_.model.diagnostics;
     for (std::size_t f = 0; f < order_.size(); ++f)
       append_renamed(remains_[order_[f]].scene, remains_[order_[f]].label,
                      all_.model.files[f].label, all_.loading);
   }
 
-  [[nodiscard]] Diagnostics tell_of_places() const {
+  [[nodiscard]] Diagnostics place_diagnostics() const {
     std::vector<io::FilePlace> places;
     bool on_map = false;
     for (std::size_t f = 0; f < remains_.size(); ++f) {
@@ -258,7 +258,7 @@ class Gathering {
       on_map = on_map || given_[f].options.on_map;
     }
     std::ranges::sort(places, {}, &io::FilePlace::file);
-    return io::tell_of_places(places, on_map);
+    return io::place_diagnostics(places, on_map);
   }
 
   std::vector<Remains> remains_;
@@ -278,7 +278,7 @@ Hash128 hash_of_ids(const model::Model& model) {
 }
 
 Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, const Keep& keep,
-                           Look look, const parallel::Context& context) {
+                           VisitScene visit_scene, const parallel::Context& context) {
   std::vector<Remains> remains;
   bool keeps_scenes = true;
   for (std::size_t f = 0; f < reader.files().size(); ++f) {
@@ -287,7 +287,7 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
     const model::Model& model = **read;
     Result<model::Scene> scene = model::make_scene(model, options, context);
     if (!scene) return scene.error();
-    if (const Status s = look(*scene, f); !s) return s.error();
+    if (const Status s = visit_scene(*scene, f); !s) return s.error();
     Remains& file = remains.emplace_back();
     append_extents(*scene, file.extents);
     file.lacking = std::move(scene->lacking);

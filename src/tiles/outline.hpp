@@ -49,13 +49,13 @@ struct Outline {
 
 /// Takes from the scene of one file what is asked of all objects; the file's label is that which it
 /// has alone.
-using Look = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t given)>;
+using VisitScene = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t given)>;
 
 /// Reads all files, one at a time, has the reader keep each, and returns their outline: it is the
 /// model that io::read_models() and model::make_scene() make of all, without geometry. Errors:
-/// theirs; those of `look`.
+/// theirs; those of `visit_scene`.
 [[nodiscard]] Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options,
-                                         const Keep& keep, Look look,
+                                         const Keep& keep, VisitScene visit_scene,
                                          const parallel::Context& context);
 
 /// Returns the hash of the ids of a model's objects, by which one that changed is known.

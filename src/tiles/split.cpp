@@ -20,8 +20,8 @@ std::int64_t middle(const geometry::Box3l& box, int axis) {
 
 class Cutter {
  public:
-  Cutter(std::span<const Extent> extents, std::uint64_t most_bytes)
-      : extents_(extents), most_bytes_(most_bytes) {}
+  Cutter(std::span<const Extent> extents, std::uint64_t max_bytes)
+      : extents_(extents), max_bytes_(max_bytes) {}
 
   std::vector<CutCell> run() {
     CutCell all{{{-kFarthest, -kFarthest, -kFarthest}, {kFarthest, kFarthest, kFarthest}}, {}, 0};
@@ -38,7 +38,7 @@ class Cutter {
   }
 
   void cut(CutCell whole) {
-    if (whole.bytes > most_bytes_) {
+    if (whole.bytes > max_bytes_) {
       for (const int axis : axes_of(whole)) {
         std::optional<std::pair<CutCell, CutCell>> halves = halved(whole, axis);
         if (!halves) continue;
@@ -91,14 +91,14 @@ class Cutter {
   }
 
   std::span<const Extent> extents_;
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
   std::vector<CutCell> cells_;
 };
 
 }  // namespace
 
-std::vector<CutCell> cut_space(std::span<const Extent> extents, std::uint64_t most_bytes) {
-  return Cutter(extents, most_bytes).run();
+std::vector<CutCell> cut_space(std::span<const Extent> extents, std::uint64_t max_bytes) {
+  return Cutter(extents, max_bytes).run();
 }
 
 }  // namespace strake::tiles

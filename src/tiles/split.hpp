@@ -24,9 +24,9 @@ struct CutCell {
 };
 
 /// Cuts space into cells, halves of halves across their longest side, until what reaches into one
-/// takes no more than `most_bytes`. A cell that halves make no smaller, since everything in it lies
+/// takes no more than `max_bytes`. A cell that halves make no smaller, since everything in it lies
 /// at one place, stays as it is. There is one at least. The cells depend on the extents alone.
 [[nodiscard]] std::vector<CutCell> cut_space(std::span<const Extent> extents,
-                                             std::uint64_t most_bytes);
+                                             std::uint64_t max_bytes);
 
 }  // namespace strake::tiles

@@ -80,11 +80,11 @@ std::vector<Section> read_sections(BlobReader& in) {
 
 /// Whether sections follow each other and fill the objects of a tile.
 bool are_sound(const Tile& tile) {
-  constexpr std::uint64_t kMost = 1U << 31U;
+  constexpr std::uint64_t kMax = 1U << 31U;
   std::uint32_t at = 0;
   for (const Section& s : tile.sections) {
-    if (s.first != at || s.last < s.first || s.file >= tile.model.files.size() ||
-        s.bodies > kMost || s.shapes > kMost)
+    if (s.first != at || s.last < s.first || s.file >= tile.model.files.size() || s.bodies > kMax ||
+        s.shapes > kMax)
       return false;
     at = s.last;
   }

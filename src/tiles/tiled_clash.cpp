@@ -21,18 +21,18 @@ namespace {
 /// Returns by how much the boxes of each object are to grow so that those of two meet where a test
 /// looks at the two.
 std::vector<std::int64_t> reaches(const CutRun& run) {
-  std::vector<double> most(run.outline.extents.size(), 0);
+  std::vector<double> largest(run.outline.extents.size(), 0);
   for (const rules::PlannedTest& test : run.plan.tests) {
     const clash::SearchReach reach =
         clash::search_reach(clash::all_tolerances(test.policy, test.options));
-    for (std::size_t o = 0; o < most.size(); ++o) {
+    for (std::size_t o = 0; o < largest.size(); ++o) {
       const double own = reach.of_object.empty() ? 0 : reach.of_object[o];
-      most[o] = std::max(most[o], reach.of_all / 2 + own);
+      largest[o] = std::max(largest[o], reach.of_all / 2 + own);
     }
   }
-  std::vector<std::int64_t> units(most.size());
-  for (std::size_t o = 0; o < most.size(); ++o)
-    units[o] = static_cast<std::int64_t>(std::ceil(most[o])) + 1;
+  std::vector<std::int64_t> units(largest.size());
+  for (std::size_t o = 0; o < largest.size(); ++o)
+    units[o] = static_cast<std::int64_t>(std::ceil(largest[o])) + 1;
   return units;
 }
 
@@ -73,12 +73,12 @@ Result<clash::Report> join_test(const CutRun& run, std::vector<FoundFile>& files
 
 }  // namespace
 
-void cut(CutRun& run, std::uint64_t most_bytes) {
+void cut(CutRun& run, std::uint64_t max_bytes) {
   const std::vector<std::int64_t> reach = reaches(run);
   std::vector<Extent> grown = run.outline.extents;
   for (std::size_t o = 0; o < grown.size(); ++o)
     if (!grown[o].box.empty()) grown[o].box = grown[o].box.inflated(reach[o]);
-  run.cells = cut_space(grown, most_bytes);
+  run.cells = cut_space(grown, max_bytes);
 }
 
 Status write_tiles(const CutRun& run, FileReader& reader, const std::filesystem::path& folder,

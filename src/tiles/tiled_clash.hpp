@@ -30,7 +30,7 @@ struct CutRun {
 
 /// Cuts the model into cells of which a worker takes no more than so many bytes: each has the
 /// objects that come within reach of it in any of the tests.
-void cut(CutRun& run, std::uint64_t most_bytes);
+void cut(CutRun& run, std::uint64_t max_bytes);
 
 /// Writes some of the tiles, reading the model's files again, one at a time. Errors: input for one
 /// that changed meanwhile; those of io::read_models(); output.

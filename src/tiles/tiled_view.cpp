@@ -71,7 +71,7 @@ ViewTask task_of(const CutView& cut, const hlr::ViewPart& part) {
   if (cut.sections) task.hatches = of_objects(cut.sections->hatches, part.objects);
   task.made_for_view = cut.whole.tessellation.any;
   task.finer = finer_bodies(cut, part.objects);
-  task.asked = part.asked;
+  task.to_solve = part.to_solve;
   name_objects(cut, part.objects, task);
   return task;
 }
@@ -86,20 +86,20 @@ model::ViewTessellation plan_of(const model::Scene& scene, const ViewTask& task)
   return plan;
 }
 
-/// Solves the lines that a view asks for.
+/// Solves the lines that a view requests.
 Result<hlr::Drawing> solve(const model::Scene& scene, const ViewTask& task,
                            const parallel::Context& context) {
   const hlr::WholeView whole{.box = task.box,
                              .longest_side = task.longest_side,
                              .tessellation = plan_of(scene, task),
                              .hatches = task.hatches,
-                             .asked = task.asked};
-  const std::vector<bool> drawn(task.asked.size(), true);
+                             .to_solve = task.to_solve};
+  const std::vector<bool> drawn(task.to_solve.size(), true);
   Result<hlr::Drawing> drawing =
       hlr::solve_part({scene, drawn, task.view, task.options, &whole}, context);
   if (!drawing) return drawing;
   drawing->view = task.view;
-  Result<hlr::Account> account = hlr::account_of(scene, task.asked, *drawing, context);
+  Result<hlr::Account> account = hlr::account_of(scene, task.to_solve, *drawing, context);
   if (!account) return account.error();
   drawing->account = std::move(*account);
   return drawing;
@@ -113,7 +113,7 @@ Result<Blob> encode_counts(const hlr::PartCounts& counts, std::span<const std::u
   return out.finish();
 }
 
-/// What was solved in a tile, of which the drawing is decoded when it is asked for.
+/// What was solved in a tile, of which the drawing is decoded when it is requested.
 class SolvedTile {
  public:
   /// The path must outlive this. Errors: input where it is not of that tile (kLost).
@@ -155,7 +155,7 @@ class SolvedTile {
 };
 
 /// Fills what a drawing has of the view and of all that is drawn.
-void fill_head(const CutView& cut, const Diagnostics& said, hlr::Drawing& drawing) {
+void fill_head(const CutView& cut, const Diagnostics& diagnostics, hlr::Drawing& drawing) {
   drawing.view = cut.view;
   drawing.options = cut.options;
   drawing.weld_mm = cut.outline.scene.weld_mm;
@@ -168,7 +168,7 @@ void fill_head(const CutView& cut, const Diagnostics& said, hlr::Drawing& drawin
     drawing.counters.uncut_objects = cut.sections->uncut_objects;
     drawing.diagnostics = cut.sections->diagnostics;
   }
-  drawing.diagnostics.append(said);
+  drawing.diagnostics.append(diagnostics);
   hlr::report_defects(cut.outline.model, drawing.account, drawing.diagnostics);
 }
 
@@ -197,7 +197,7 @@ Status check_tiled_view(const hlr::Options& options) {
   return {};
 }
 
-Status cut_view(CutView& cut, std::uint64_t most_bytes, const parallel::Context& context) {
+Status cut_view(CutView& cut, std::uint64_t max_bytes, const parallel::Context& context) {
   cut.outline.scene.model = &cut.outline.model;
   const model::Scene& scene = cut.outline.scene;
   if (cut.drawn.empty()) cut.drawn.assign(scene.model->objects.size(), true);
@@ -213,7 +213,7 @@ Status cut_view(CutView& cut, std::uint64_t most_bytes, const parallel::Context&
   bytes.reserve(cut.outline.extents.size());
   for (const Extent& extent : cut.outline.extents) bytes.push_back(extent.bytes);
   auto parts = hlr::split_view({cut.view, cut.options, cut.whole.drawn.box, cut.whole.boxes, bytes},
-                               most_bytes, context);
+                               max_bytes, context);
   if (!parts) return parts.error();
   cut.parts = std::move(*parts);
   return {};
@@ -269,7 +269,7 @@ Result<hlr::Drawing> join_solved(const CutView& cut, std::span<const std::filesy
   }
   if (const Status room = join.make_room(cut.options, context); !room) return room.error();
   // All tiles say the same of the eye, and where the middle of the whole is.
-  Diagnostics said;
+  Diagnostics diagnostics;
   geometry::Vec3l origin;
   for (std::size_t k = 0; k < solved.size(); ++k) {
     const hlr::ViewPart& part = cut.parts[k];
@@ -277,14 +277,14 @@ Result<hlr::Drawing> join_solved(const CutView& cut, std::span<const std::filesy
     if (!tile) return tile.error();
     Result<hlr::Drawing> drawing = tile->drawing(part.objects.size(), context);
     if (!drawing) return drawing.error();
-    if (!join.add(*drawing, tile->counts(), part.objects, part.asked)) return lost(solved[k]);
-    said = std::move(drawing->diagnostics);
+    if (!join.add(*drawing, tile->counts(), part.objects, part.to_solve)) return lost(solved[k]);
+    diagnostics = std::move(drawing->diagnostics);
     origin = drawing->origin;
   }
   Result<hlr::Drawing> whole = std::move(join).finish(cut.outline.scene, cut.drawn, context);
   if (!whole) return whole;
   whole->origin = origin;
-  fill_head(cut, said, *whole);
+  fill_head(cut, diagnostics, *whole);
   return whole;
 }
 

@@ -43,7 +43,7 @@ struct CutView {
 
 /// Cuts a view, of which all but whole, sections and parts is there, into tiles of which a worker
 /// takes no more than so many bytes. Errors: those of hlr::draw(); cancelled.
-[[nodiscard]] Status cut_view(CutView& cut, std::uint64_t most_bytes,
+[[nodiscard]] Status cut_view(CutView& cut, std::uint64_t max_bytes,
                               const parallel::Context& context);
 
 /// Writes some of the tiles, as write_tiles() does.

@@ -18,7 +18,7 @@ bool fits(const ViewTask& task, const model::Model& model) {
   const std::size_t objects = model.objects.size();
   const auto by_object = [&](std::size_t size) { return size == 0 || size == objects; };
   return by_object(task.options.hatches.size()) && by_object(task.options.uncut.size()) &&
-         by_object(task.hatches.size()) && task.asked.size() == objects &&
+         by_object(task.hatches.size()) && task.to_solve.size() == objects &&
          (task.finer.empty() || task.finer.size() == model.bodies.size()) &&
          task.named.size() == task.names.size() &&
          std::ranges::all_of(task.named, [&](std::uint32_t o) { return o < objects; }) &&
@@ -37,7 +37,7 @@ Result<Blob> encode_task(const ViewTask& task) {
   project::write(out, std::span<const hlr::Hatch>(task.hatches));
   out.number(task.made_for_view ? 1 : 0);
   out.flags(task.finer);
-  out.flags(task.asked);
+  out.flags(task.to_solve);
   out.column(std::span(task.named));
   out.texts(task.names);
   return out.finish();
@@ -55,7 +55,7 @@ Result<ViewTask> decode_task(const Blob& blob, const model::Model& model, const 
   task.hatches = project::read_hatches(*in);
   task.made_for_view = in->number() != 0;
   task.finer = in->flags();
-  task.asked = in->flags();
+  task.to_solve = in->flags();
   task.named = in->column<std::uint32_t>();
   task.names = in->texts();
   if (!in->failed() && !fits(task, model)) in->refuse("it does not fit its model");

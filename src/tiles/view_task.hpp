@@ -24,7 +24,7 @@ struct ViewTask {
   std::vector<hlr::Hatch> hatches;
   bool made_for_view = false;  ///< hlr::WholeView::tessellation, by body of the tile's model
   std::vector<bool> finer;
-  std::vector<bool> asked;  ///< by object
+  std::vector<bool> to_solve;  ///< by object
   /// Objects that reports of a view may name, and their names.
   std::vector<std::uint32_t> named;
   std::vector<std::string> names;

@@ -39,8 +39,8 @@ def run(command, folder, strake):
                                stderr=subprocess.PIPE, env={**os.environ, 'PATH': f'{strake.parent}:{os.environ["PATH"]}'})
     if serves and process.stdout.readline():
         process.send_signal(signal.SIGINT)
-    told = process.communicate(timeout=600)[1]
-    return process.returncode, told
+    reported = process.communicate(timeout=600)[1]
+    return process.returncode, reported
 
 
 def faults_of(page, strake, project, data):
@@ -53,10 +53,10 @@ def faults_of(page, strake, project, data):
                 continue
             if not all([bring(pattern, folder, data) for pattern in REAL_MODEL.findall(command)]):
                 continue
-            code, told = run(command, folder, strake)
+            code, reported = run(command, folder, strake)
             # What --fail-on stops at is an answer, too.
             if code not in ((0, 1) if '--fail-on' in command else (0,)):
-                yield f'{page.name}: {command}: exit code {code}\n{told}'
+                yield f'{page.name}: {command}: exit code {code}\n{reported}'
 
 
 def main():

@@ -24,16 +24,16 @@ def counts(before, after):
 
 def faults(chapter, folder):
     text = chapter.read_text(encoding='utf-8')
-    said = {name: [int(number) for number in numbers.split('|')]
+    stated = {name: [int(number) for number in numbers.split('|')]
             for name, numbers in re.findall(r'^\| `(\w+)` \|((?: *\d+ *\|){3} *\d+) *\|$', text, re.M)}
     names = sorted(path.name.removesuffix('_before.cpp') for path in folder.glob('*_before.cpp'))
     if not names:
         yield f'{folder}: no conversions'
     for name in names:
         counted = counts(*(code_lines(folder / f'{name}_{when}.cpp') for when in ('before', 'after')))
-        if said.get(name) != counted:
-            yield f'{chapter}: {name}: says {said.get(name)}, counted {counted}'
-    for name in said.keys() - set(names):
+        if stated.get(name) != counted:
+            yield f'{chapter}: {name}: says {stated.get(name)}, counted {counted}'
+    for name in stated.keys() - set(names):
         yield f'{chapter}: {name}: there is no such conversion'
     sources = {line.strip() for path in folder.glob('*.?pp') for line in path.read_text(encoding='utf-8').splitlines()}
     for number, line in enumerate(text.splitlines(), 1):

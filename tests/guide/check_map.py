@@ -132,14 +132,14 @@ def room_faults(project, page, text):
     for module, section in zip(sections[1::2], sections[2::2]):
         folder = project / ('cli' if module == 'cli' else f'src/{module}')
         there = {path.name for path in folder.iterdir() if path.is_dir()}
-        told = {name: row['uses'] for row in tables(section) for name in in_quotes(row['room'])}
-        yield from (f'{page}: {module} has no room {name}' for name in sorted(told.keys() - there))
-        yield from (f'{page}: the room {name} of {module} is not told of' for name in sorted(there - told.keys()))
+        reported = {name: row['uses'] for row in tables(section) for name in in_quotes(row['room'])}
+        yield from (f'{page}: {module} has no room {name}' for name in sorted(reported.keys() - there))
+        yield from (f'{page}: the room {name} of {module} is not told of' for name in sorted(there - reported.keys()))
         used, above = included_rooms(folder, module), []
-        for room, cell in told.items():
+        for room, cell in reported.items():
             uses = re.findall(r'(\w+)(?: \((below)\))?', cell)
             for name, below in uses:
-                if (name in above) == bool(below) or name not in told:
+                if (name in above) == bool(below) or name not in reported:
                     yield f'{page}: {module}/{name} is not {"below" if below else "above"} {room}'
             for name, path in used.get(room, {}).items():
                 if name not in {use for use, _ in uses}:

@@ -22,8 +22,8 @@ def faults(strake, source, folder):
     with contextlib.closing(sqlite3.connect(f'file:{folder}/ship.strake?mode=ro', uri=True)) as project:
         names = {name for name, in project.execute(
             "SELECT name FROM sqlite_schema WHERE type IN ('table', 'view') AND name NOT LIKE 'sqlite_%'")}
-        told = set(re.findall(r'`(\w+)`', page))
-        yield from (f'does not tell of {name}' for name in sorted(names - told))
+        reported = set(re.findall(r'`(\w+)`', page))
+        yield from (f'does not tell of {name}' for name in sorted(names - reported))
         queries = re.sub(r'--[^\n]*', '', '\n'.join(re.findall(r'```sql\n(.*?)```', page, re.DOTALL))).split(';')
         answers = [project.execute(query).fetchall() for query in queries if query.strip()]
         if len(answers) < 5:

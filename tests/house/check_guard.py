@@ -193,9 +193,9 @@ namespace strake::hlr {
 using parallel::Region;
 using std::swap;
 static constexpr std::array kScales{0.02, 0.05};
-static constexpr int kMost = 5;
-constexpr static int kMost = 5;
-static inline constexpr int kMost = 5;
+static constexpr int kMax = 5;
+constexpr static int kMax = 5;
+static inline constexpr int kMax = 5;
 static constinit const Table table;
 static int size(const Cell& cell) { return cell.size; }
 [[nodiscard]] static std::optional<Torus> of(const Shape& shape);
@@ -208,7 +208,7 @@ const auto system = coordinate_system(object);
 const LinearSystem system(matrix);
 std::unique_ptr<Node> clone() const;
 #include "bits/set.hpp"
-constinit const int kMost = 5;
+constinit const int kMax = 5;
 auto next = [n = 0]() mutable -> int { return n++; };
 auto next = [n = 0]() mutable noexcept { return n++; };
 work.team = &context;
@@ -248,12 +248,12 @@ def wrong():
     for name in ('src/hlr/x.cc', 'src/hlr/x.h', 'src/hlr/x.ipp', 'include/strake/hlr/x.inl', 'cli/x.cxx', 'src/hlr/x'):
         if not faults_of(name, 'int x();'):
             yield f'{name}: a source of no known kind is not caught'
-    # The patterns have them; an exception that is none any more is told of.
+    # The patterns have them; an exception that is none any more is reported.
     if faults_of('src/parallel/x.cpp', 'std::mutex m;'):
         yield 'src/parallel: caught'
     if faults_of('cli/output/console.cpp', 'std::mutex m;') or not faults_of('cli/output/console.cpp', 'int m;'):
         yield 'cli/output/console.cpp: the exception is not kept'
-    # What spans lines is told of where it begins, and what follows where it is.
+    # What spans lines is reported where it begins, and what follows where it is.
     if [number for number, _ in faults_of('src/hlr/x.cpp', 'auto r = R"(\n"\n)";\nstatic const Table\n    a = b();')] != [5]:
         yield 'a declaration of two lines after a text of three: not line 5'
 
@@ -269,7 +269,7 @@ def wrong_rooms():
             Path('src/hlr/view/y.cpp'), '#include "hlr/draw.hpp"\n'):
         if not list(check_house.room_faults([*one_way, back])):
             yield f'{back[0]}: rooms that include each other are not caught'
-    full = [(Path(f'cli/verbs/x{i}.cpp'), '') for i in range(check_house.MOST_IN_ROOM)]
+    full = [(Path(f'cli/verbs/x{i}.cpp'), '') for i in range(check_house.MAX_IN_ROOM)]
     if list(check_house.room_faults(full)) or not list(check_house.room_faults([*full, (Path('cli/verbs/y.hpp'), '')])):
         yield 'cli/verbs: the number of files of a room is not counted'
 

@@ -16,7 +16,7 @@ constexpr double kNear = 0.01;
 
 /// Least value of a smooth function over [from, to]: samples, then a narrowing round the best.
 template <class F>
-double least_over(double from, double to, const F& f) {
+double min_over(double from, double to, const F& f) {
   constexpr int kSamples = 60, kThirds = 60;
   double best = from;
   for (int i = 1; i <= kSamples; ++i) {
@@ -74,7 +74,7 @@ struct Depth {
     };
     const double ends = std::min(end(s.bottom_radius, s.bottom_shear_x, s.bottom_shear_y, -1),
                                  end(s.top_radius, s.top_shear_x, s.top_shear_y, 1));
-    return ends < -kNear * s.height ? ends : std::min(ends, least_over(0, 2 * kPi, side));
+    return ends < -kNear * s.height ? ends : std::min(ends, min_over(0, 2 * kPi, side));
   }
   double operator()(const SpherePrimitive& s) const {
     return s.diameter / 2 - std::sqrt(dot(p, p));
@@ -83,7 +83,7 @@ struct Depth {
     const double out = std::hypot(p.x, p.y), up = std::fabs(p.z);
     const double part = std::hypot(out / d.radius, up / d.height);
     if (p.z < -kNear * d.height || part > 1 + kNear) return std::min(p.z, -kNear * d.height);
-    const double to_skin = least_over(0, kPi / 2, [&](double t) {
+    const double to_skin = min_over(0, kPi / 2, [&](double t) {
       return std::hypot(out - d.radius * std::cos(t), up - d.height * std::sin(t));
     });
     return std::min(p.z, part <= 1 ? to_skin : -to_skin);

@@ -20,7 +20,7 @@ double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 /// The angle between two at which a function with one valley there is least.
 template <class F>
-double least_between(double lo, double hi, const F& f) {
+double min_between(double lo, double hi, const F& f) {
   constexpr int kSteps = 50;
   constexpr double kGolden = 0.6180339887498949;
   double x = hi - kGolden * (hi - lo), y = lo + kGolden * (hi - lo), at_x = f(x), at_y = f(y);
@@ -42,7 +42,7 @@ double least_between(double lo, double hi, const F& f) {
 
 /// The angle at which a function of a turn is least: the best of the valleys between samples.
 template <class F>
-double least_angle(const F& f) {
+double min_angle(const F& f) {
   constexpr std::size_t kSamples = 48;
   constexpr double kStep = 2 * kPi / kSamples;
   std::array<double, kSamples> value{};
@@ -52,7 +52,7 @@ double least_angle(const F& f) {
     const double before = value[(i + kSamples - 1) % kSamples], after = value[(i + 1) % kSamples];
     if (before < value[i] || after < value[i]) continue;
     const double at = kStep * static_cast<double>(i);
-    const double angle = least_between(at - kStep, at + kStep, f);
+    const double angle = min_between(at - kStep, at + kStep, f);
     if (f(angle) < least) {
       least = f(angle);
       best = angle;
@@ -128,7 +128,7 @@ struct Support {
     std::array<Vec3d, 2> ends;
     for (const bool top : {false, true}) {
       const double side = top ? 0.5 : -0.5;
-      const double angle = least_angle([&](double t) { return -dot(n, rim(s, side, t)); });
+      const double angle = min_angle([&](double t) { return -dot(n, rim(s, side, t)); });
       ends[top ? 1 : 0] = rim(s, side, angle);
     }
     return farthest(ends, n);
@@ -165,7 +165,7 @@ void offer_ellipse(const Vec3d& p, double across, double along, Under& least) {
     const double c = std::cos(t), n = std::sin(t);
     return std::hypot(across * c, along * n) - c * far - n * p.z;
   };
-  const double t = least_angle(depth);
+  const double t = min_angle(depth);
   least.offer(depth(t), out * std::cos(t) + Vec3d{0, 0, std::sin(t)});
 }
 
@@ -221,7 +221,7 @@ struct Depth {
       const double middle = (s.bottom_radius + s.top_radius) / 2;
       return (middle - dot(n, p)) / norm(n);
     };
-    const double t = least_angle(depth);
+    const double t = min_angle(depth);
     least.offer(depth(t), unit(tangent(t), {0, 0, 1}));
     return least;
   }
@@ -275,7 +275,7 @@ struct Placed {
 
 /// What a convex program says at a point: the value where it is allowed, else by how much a
 /// constraint is broken; the gradient of either.
-struct Look {
+struct Sample {
   bool allowed = true;
   double value = 0;
   Vec3d gradient;
@@ -288,22 +288,22 @@ struct Least {
 
 /// Cuts an ellipsoid that holds the least point, as deep as is known, until it is too small. The
 /// ellipsoid is the image of the unit ball under `map`: so it stays one whatever is rounded.
-template <class Ask>
-Least least_value(double radius, int steps, double narrow, const Ask& ask) {
+template <class Evaluate>
+Least min_value(double radius, int steps, double narrow, const Evaluate& evaluate) {
   Vec3d x;
   Mat3d map;
   for (Vec3d& row : map.row) row = row * radius;
   Least least;
   for (int step = 0; step < steps; ++step) {
-    const Look look = ask(x);
-    const Vec3d along = back(map, look.gradient);
+    const Sample sample = evaluate(x);
+    const Vec3d along = back(map, sample.gradient);
     const double width = norm(along);
-    if (look.allowed) {
-      least.upper = std::min(least.upper, look.value);
-      least.lower = std::max(least.lower, look.value - width);
+    if (sample.allowed) {
+      least.upper = std::min(least.upper, sample.value);
+      least.lower = std::max(least.lower, sample.value - width);
     }
     if (least.upper - least.lower <= narrow || !(width > 0)) break;
-    const double over = look.allowed ? look.value - least.upper : look.value;
+    const double over = sample.allowed ? sample.value - least.upper : sample.value;
     const double deep = over / width;
     if (!(deep < 1)) break;
     const Vec3d way = along * (1 / width);
@@ -326,7 +326,7 @@ struct Parting {
 
 Parting parting(const Placed& a, const Placed& b) {
   Parting found;
-  found.gap = least_value(1, kSteps, kNarrow, [&](const Vec3d& n) -> Look {
+  found.gap = min_value(1, kSteps, kNarrow, [&](const Vec3d& n) -> Sample {
     const double size = norm(n);
     if (size > 1) return {false, size - 1, n * (1 / size)};
     const Vec3d gradient = b.support(n) - a.support(-n);
@@ -339,7 +339,7 @@ Parting parting(const Placed& a, const Placed& b) {
 
 /// Minus the depth of the deepest point of `other` in `body`.
 Least depth_in(const Placed& body, const Placed& other, double reach) {
-  return least_value(reach, kSteps, kNarrow, [&](const Vec3d& x) -> Look {
+  return min_value(reach, kSteps, kNarrow, [&](const Vec3d& x) -> Sample {
     if (const Under out = other.depth(x); out.depth < 0) return {false, -out.depth, out.normal};
     const Under in = body.depth(x);
     return {true, -in.depth, in.normal};

@@ -301,9 +301,9 @@ DeepBody spring(double radius, double pitch, double wire, int turns) {
 
 /// Some rotation, half way up and somewhere along x. Drawn one after the other, not as arguments of
 /// one call: compilers differ in which they draw first.
-Place draw_place(Draw& draw, double least_x, double greatest_x, double height) {
+Place draw_place(Draw& draw, double min_x, double max_x, double height) {
   const auto axes = draw_turn(draw);
-  const double x = draw.in(least_x, greatest_x);
+  const double x = draw.in(min_x, max_x);
   return turn_about(axes, {x, 0, height / 2});
 }
 
@@ -438,7 +438,7 @@ testing::IndexedMesh snapped(const DeepBody& body) {
   return volume < 0 ? mesh.flipped() : mesh;
 }
 
-AskedPair::AskedPair(const DeepPair& pair)
+DeepPairTest::DeepPairTest(const DeepPair& pair)
     : a_(snapped(pair.a)),
       b_(snapped(pair.b)),
       of_a_(make_face_kdop(a_.part)),
@@ -454,7 +454,7 @@ AskedPair::AskedPair(const DeepPair& pair)
   goal_.meeting_point = meeting.point;
 }
 
-geometry::Depth AskedPair::depth() const {
+geometry::Depth DeepPairTest::depth() const {
   geometry::QueryContext work;
   return solid_depth({a_.treed(), &of_a_}, {b_.treed(), &of_b_}, goal_, work);
 }

@@ -48,10 +48,10 @@ struct DeepPair {
 /// In grid units.
 [[nodiscard]] testing::IndexedMesh snapped(const DeepBody& body);
 
-/// A pair as the narrow phase asks for its depth.
-class AskedPair {
+/// A pair as the narrow phase requests its depth.
+class DeepPairTest {
  public:
-  explicit AskedPair(const DeepPair& pair);
+  explicit DeepPairTest(const DeepPair& pair);
 
   /// Whether the two have interior in common.
   [[nodiscard]] bool meets() const { return meets_; }

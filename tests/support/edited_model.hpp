@@ -201,14 +201,14 @@ class EditedModel {
                              &rules.grouped, &rules.named, &rules.clearances, &rules.list_exempted})
       *rule = draw_.one_in(2);
     rules.reporting = draw_.one_in(4);
-    rules.least_volume = draw_.one_in(4);
+    rules.min_volume = draw_.one_in(4);
     rules.clearance_mm = draw_.one_in(2) ? 0 : 20;
     rules.depth_mm = 2.0 + static_cast<double>(draw_.below(4));
     rules.engine.keep_for_changes = true;
     rules.engine.volumes = draw_.one_in(3) ? clash::Volumes::on : clash::Volumes::off;
     rules.engine.curves = draw_.one_in(3) ? clash::Curves::on : clash::Curves::off;
     rules.engine.contacts = draw_.one_in(2) ? clash::Contacts::count : clash::Contacts::list;
-    rules.engine.most_regions = draw_.one_in(4) ? 0 : 1 + draw_.below(4);
+    rules.engine.max_regions = draw_.one_in(4) ? 0 : 1 + draw_.below(4);
   }
 
   PrimitiveDraw draw_;

@@ -44,7 +44,7 @@ struct EditedObject {
 struct EditedRules {
   bool matrix = false, labels = false, links = false, between = false, levels = false,
        allowed = false, by_volume = false, by_relation = false, grouped = false, named = false,
-       clearances = false, list_exempted = false, reporting = false, least_volume = false;
+       clearances = false, list_exempted = false, reporting = false, min_volume = false;
   double clearance_mm = 20, depth_mm = 3;
   clash::EngineOptions engine;
 };
@@ -79,7 +79,7 @@ class EditedRuleMaker {
     if (rules_.reporting)
       options.reporting.relations = {clash::Relation::separate, clash::Relation::interfere,
                                      clash::Relation::a_in_b};
-    if (rules_.least_volume) options.reporting.min_volume_mm3 = 500;
+    if (rules_.min_volume) options.reporting.min_volume_mm3 = 500;
     in.sets.in_a = each<bool>(all, [](const EditedObject& o) { return o.in_a; });
     in.sets.in_b = each<bool>(all, [](const EditedObject& o) { return o.in_b; });
     if (rules_.grouped) {

@@ -51,7 +51,7 @@ struct Tile {
 };
 
 /// From where all is seen: along a direction, or from a point.
-struct Sight {
+struct Viewpoint {
   Vec direction;
   std::optional<Vec> eye;
 
@@ -62,7 +62,7 @@ struct Sight {
 // Lines of one part, decided from the vertex coordinates of its triangles alone.
 class PartLines {
  public:
-  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const Sight& sight,
+  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const Viewpoint& sight,
             double angle)
       : part_(part), origin_(origin), sight_(sight), angle_(angle) {}
 
@@ -115,7 +115,7 @@ class PartLines {
   /// What moves of its corners within a grid cell may turn a triangle by about its longest side,
   /// radians; no more than a quarter of a degree.
   double triangle_turn(std::uint32_t t) const {
-    constexpr double kMost = 0.0044;
+    constexpr double kMax = 0.0044;
     const auto& i = part_.triangles[t];
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -124,7 +124,7 @@ class PartLines {
     }
     const Vec area = triangle_area(t);
     const double height = std::sqrt(dot(area, area).get_d()) / longest;
-    return std::min(kMost, 2 * (std::sqrt(0.75) + part_.weld) / height);
+    return std::min(kMax, 2 * (std::sqrt(0.75) + part_.weld) / height);
   }
 
   /// That of the face that decides: of its steadiest triangle.
@@ -159,14 +159,14 @@ class PartLines {
     const double turn = std::acos(std::clamp(dot(m, n).get_d() / lengths, -1.0, 1.0));
     const double by_rounding = face_turn(triangles[0]) + face_turn(triangles[1]);
     if (turn > angle_ * std::acos(-1.0) / 180 + by_rounding) return EdgeKind::sharp;
-    const bool front_m = dot(m, sight_.from(least_corner(triangles[0]))) > 0;
-    const bool front_n = dot(n, sight_.from(least_corner(triangles[1]))) > 0;
+    const bool front_m = dot(m, sight_.from(smallest_corner(triangles[0]))) > 0;
+    const bool front_n = dot(n, sight_.from(smallest_corner(triangles[1]))) > 0;
     if (front_m != front_n) return EdgeKind::contour;
     return std::nullopt;
   }
 
   // Of the face whose area decides.
-  Vec least_corner(std::uint32_t t) const {
+  Vec smallest_corner(std::uint32_t t) const {
     const bool alone = part_.faces.empty() || face_area(t) == triangle_area(t);
     std::optional<Vec> least;
     for (std::uint32_t s = 0; s < part_.triangles.size(); ++s) {
@@ -179,7 +179,7 @@ class PartLines {
 
   const geometry::Part& part_;
   geometry::Vec3l origin_;
-  const Sight& sight_;
+  const Viewpoint& sight_;
   double angle_;
 };
 
@@ -272,8 +272,8 @@ class Oracle {
   }
 
   // An intersection is off the faces that it lies on by what its ends were rounded.
-  mpq_class least_distance(const Tile& tile, const Line& e, std::uint32_t body,
-                           std::uint32_t part) const {
+  mpq_class min_distance(const Tile& tile, const Line& e, std::uint32_t body,
+                         std::uint32_t part) const {
     if (!e.crosses() && tile.body == body && tile.part == part) return 0;
     mpq_class size = 0;
     for (const mpq_class& x : tile.n) size += abs(x);
@@ -323,7 +323,7 @@ class Oracle {
         cut(result, e, cross(r - q, sight_.from(q)), q);
       }
       const mpq_class up = dot(tile.n, sight_.from(tile.v[0]));
-      const mpq_class excess = least_distance(tile, e, body, part);
+      const mpq_class excess = min_distance(tile, e, body, part);
       cut(result, e, tile.n, tile.v[0], up > 0 ? mpq_class(-excess) : excess);
       if (view_.limits)
         for (std::size_t k = 0; k < 3; ++k)
@@ -370,7 +370,7 @@ class Oracle {
       if (any[0] && any[1] && (!own || (self[0] && self[1]))) continue;
       const std::optional<mpq_class> h = height(tile, p);
       if (!h || *h <= 0) continue;
-      if (abs(dot(tile.n, tile.v[0] - p)) <= least_distance(tile, e, body, part)) continue;
+      if (abs(dot(tile.n, tile.v[0] - p)) <= min_distance(tile, e, body, part)) continue;
       if (!inside_limits(p + *h * sight_.from(p))) continue;
       for (int side = 0; side < 2; ++side)
         if (covers(tile, p, side == 0 ? left : right)) {
@@ -427,7 +427,7 @@ class Oracle {
   const hlr::View& view_;
   const hlr::Options& options_;
   const std::vector<EdgePiece>& given_;
-  Sight sight_;
+  Viewpoint sight_;
   std::vector<hlr::HalfSpace> window_;
   Vec low_, high_;
   mpq_class contact_;

@@ -18,7 +18,7 @@ struct Interleavings {
 /// that the thread's next step may lead to, none if it has to wait or is done.
 template <class State, class Next, class Done>
 Interleavings explore(const State& start, unsigned threads, Next&& next, Done&& done) {
-  std::set<State> seen{start};
+  std::set<State> found{start};
   std::vector<State> open{start};
   Interleavings all;
   while (!open.empty()) {
@@ -29,12 +29,12 @@ Interleavings explore(const State& start, unsigned threads, Next&& next, Done&& 
       all_done = all_done && done(state, thread);
       for (const State& after : next(state, thread)) {
         somebody_moves = true;
-        if (seen.insert(after).second) open.push_back(after);
+        if (found.insert(after).second) open.push_back(after);
       }
     }
     all.can_hang = all.can_hang || (!somebody_moves && !all_done);
   }
-  all.states = seen.size();
+  all.states = found.size();
   return all;
 }
 

@@ -71,7 +71,7 @@ inline RayShares shares_by_rays(std::span<const pictures::NearTriangle> triangle
       if (x * x + y * y > radius_mm * radius_mm) continue;
       const Vec3d start = axes.right * x + axes.up * y + axes.toward * from_mm, ray = -axes.toward;
       double nearest = 1e300, nearest_own = 1e300;
-      pictures::Role seen = pictures::Role::other, own = pictures::Role::other;
+      pictures::Role viewpoint = pictures::Role::other, own = pictures::Role::other;
       bool own_back = false;
       for (const pictures::NearTriangle& t : triangles) {
         const Vec3d u = t.at[1] - t.at[0], v = t.at[2] - t.at[0], p = cross(ray, v);
@@ -82,17 +82,17 @@ inline RayShares shares_by_rays(std::span<const pictures::NearTriangle> triangle
         if (along_u < 0 || along_v < 0 || along_u + along_v > 1 || at < 0) continue;
         if (at < nearest - 0.02 || (at < nearest + 0.02 && t.role != pictures::Role::other)) {
           nearest = at;
-          seen = t.role;
+          viewpoint = t.role;
         }
         if (t.role == pictures::Role::other || at >= nearest_own) continue;
         nearest_own = at;
         own = t.role;
         own_back = dot(cross(u, v), ray) > 0 && t.solid;
       }
-      if (own_back) seen = own;
+      if (own_back) viewpoint = own;
       rays += 1;
-      a += seen == pictures::Role::a ? 1 : 0;
-      b += seen == pictures::Role::b ? 1 : 0;
+      a += viewpoint == pictures::Role::a ? 1 : 0;
+      b += viewpoint == pictures::Role::b ? 1 : 0;
     }
   return {a / rays, b / rays};
 }

@@ -234,10 +234,10 @@ bool hides(const Sample& front, const Corner& p, double u, double v) {
   return std::min(front.depth, above) > p.w + tie;
 }
 
-enum class Seen { at_once, magnified, no };
+enum class Observation { at_once, magnified, no };
 
 /// Whether any of the pixels round a point of a line sees it.
-Seen seen(const PixelView& view, const Corner& p) {
+Observation observe(const PixelView& view, const Corner& p) {
   const auto any = [&](double step) {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
@@ -247,10 +247,10 @@ Seen seen(const PixelView& view, const Corner& p) {
       }
     return false;
   };
-  if (any(view.pixel())) return Seen::at_once;
+  if (any(view.pixel())) return Observation::at_once;
   for (const int finer : kFiner)
-    if (any(view.pixel() / finer)) return Seen::magnified;
-  return Seen::no;
+    if (any(view.pixel() / finer)) return Observation::magnified;
+  return Observation::no;
 }
 
 void check_lines(const PixelView& view, const hlr::Drawing& drawing, std::vector<bool>& inked,
@@ -270,9 +270,9 @@ void check_lines(const PixelView& view, const hlr::Drawing& drawing, std::vector
           drawing.options.own_polylines == hlr::OwnPolylines::visible)
         return;
       ++check.line_pixels;
-      const Seen how = seen(view, p);
-      if (how == Seen::magnified) ++check.magnified;
-      if (how != Seen::no) return;
+      const Observation how = observe(view, p);
+      if (how == Observation::magnified) ++check.magnified;
+      if (how != Observation::no) return;
       if (check.covered++ > 0 || !check.first.empty()) return;
       const Sample front = view.sample(p.u, p.v);
       check.first = place(view, x, y) + ": a line of object " +
@@ -321,11 +321,11 @@ void check_jumps(const PixelView& view, const std::vector<bool>& inked, PixelChe
 PixelCheck check_by_pixels(const model::Scene& scene, const hlr::Drawing& drawing, int width) {
   PixelCheck check;
   // The meshes that the view is made of, with contours of round primitives.
-  const auto seen_by = hlr::tessellation_of(drawing.view, drawing.options);
-  if (!seen_by) return check;
-  const auto seen = model::tessellate_for_view(scene, {}, *seen_by, {});
-  if (!seen) return check;
-  const PixelView view(*seen ? **seen : scene, drawing.view, width);
+  const auto tessellation_options = hlr::tessellation_of(drawing.view, drawing.options);
+  if (!tessellation_options) return check;
+  const auto tessellated = model::tessellate_for_view(scene, {}, *tessellation_options, {});
+  if (!tessellated) return check;
+  const PixelView view(*tessellated ? **tessellated : scene, drawing.view, width);
   std::vector<bool> inked(static_cast<std::size_t>(view.width()) *
                           static_cast<std::size_t>(view.height()));
   check_lines(view, drawing, inked, check);

@@ -14,7 +14,7 @@ namespace strake::test {
 
 /// What the pixels said of a drawing; tolerances are those of pixel_view.cpp.
 struct PixelCheck {
-  std::uint64_t line_pixels = 0;   ///< pixels of visible lines that were asked for
+  std::uint64_t line_pixels = 0;   ///< pixels of visible lines that were requested
   std::uint64_t magnified = 0;     ///< of these: decided by a finer rendering of the place only
   std::uint64_t covered = 0;       ///< of these: behind something nearer all round
   std::uint64_t jumps = 0;         ///< neighbouring pixels of which the surface jumps

@@ -125,7 +125,7 @@ std::array<RationalPoint, 3> corners(const IndexedMesh& m, const Triangle& t) {
   return {rational(m.vertices[t[0]]), rational(m.vertices[t[1]]), rational(m.vertices[t[2]])};
 }
 
-std::size_t seen_axis(const std::array<RationalPoint, 3>& t) {
+std::size_t projection_axis(const std::array<RationalPoint, 3>& t) {
   const RationalPoint n = outer(difference(t[1], t[0]), difference(t[2], t[0]));
   return n[0] != 0 ? 0 : n[1] != 0 ? 1 : 2;
 }
@@ -275,7 +275,7 @@ SheetCover sheet_cover(const IndexedMesh& sheet, const LatticeSolid& body) {
   SheetCover cover;
   for (const Triangle& triangle : sheet.triangles) {
     const auto t = corners(sheet, triangle);
-    const std::size_t axis = seen_axis(t);
+    const std::size_t axis = projection_axis(t);
     cover.all += projected_area({t.begin(), t.end()}, axis);
     mpq_class through = 0, on_faces = 0, on_surface = 0;
     const geometry::Box3l box = box_of(lattice_corners(sheet, triangle));
@@ -304,7 +304,7 @@ SheetCover sheet_cover(const IndexedMesh& sheet, const IndexedMesh& other) {
   SheetCover cover;
   for (const Triangle& triangle : sheet.triangles) {
     const auto t = corners(sheet, triangle);
-    const std::size_t axis = seen_axis(t);
+    const std::size_t axis = projection_axis(t);
     cover.all += projected_area({t.begin(), t.end()}, axis);
     for (const Triangle& u : other.triangles)
       cover.on_surface += coplanar_overlap(t, corners(other, u), axis);

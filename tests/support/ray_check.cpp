@@ -281,7 +281,7 @@ class Checker {
       bool decided = true;
       for (const Segment& s : segments(object, wire)) {
         if (!may_lie_on(a, s) || !may_lie_on(b, s)) continue;
-        const Found found = look_up(s, axis, place, object, wire);
+        const Found found = classify_point(s, axis, place, object, wire);
         decided = decided && found.decided;
         any = any || (found.decided && state_of(found) == piece.state);
       }
@@ -314,8 +314,8 @@ class Checker {
     return {{at(s.a.x, along.x), at(s.a.y, along.y), at(s.a.z, along.z)}, scale, cross(d_, along)};
   }
 
-  [[nodiscard]] Found look_up(const Segment& s, int axis, std::int64_t place, std::uint32_t object,
-                              bool wire) const {
+  [[nodiscard]] Found classify_point(const Segment& s, int axis, std::int64_t place,
+                                     std::uint32_t object, bool wire) const {
     const Sample p = sample(s, axis, place);
     const double one = 1.0 / static_cast<double>(p.scale);
     const Vec3d near{static_cast<double>(p.at.x) * one, static_cast<double>(p.at.y) * one,
@@ -349,7 +349,7 @@ class Checker {
   Vec3l d_, origin_;
   std::vector<Facet> facets_;
   Squares squares_;
-  std::vector<std::vector<Segment>> segments_, wires_;  ///< per object, made when first asked for
+  std::vector<std::vector<Segment>> segments_, wires_;  ///< per object, made when first requested
 };
 
 std::string text_of(const Vec3l& p) {
@@ -387,11 +387,11 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   RayCheck result;
   const Candidates candidates(drawing);
   if (candidates.piece.empty()) return result;
-  const auto seen_by = hlr::tessellation_of(drawing.view, drawing.options);
-  if (!seen_by) return result;
-  const auto seen = model::tessellate_for_view(scene, {}, *seen_by, {});
-  if (!seen) return result;
-  Checker checker(*seen ? **seen : scene, drawing);
+  const auto tessellation_options = hlr::tessellation_of(drawing.view, drawing.options);
+  if (!tessellation_options) return result;
+  const auto tessellated = model::tessellate_for_view(scene, {}, *tessellation_options, {});
+  if (!tessellated) return result;
+  Checker checker(*tessellated ? **tessellated : scene, drawing);
   if (!checker.within_reach()) {
     result.wrong = 1;
     result.first_wrong = "the scene is too large for this check";

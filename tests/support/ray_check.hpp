@@ -20,9 +20,9 @@ struct RayCheck {
 
 /// Exact, without any tolerance. A piece's ends are rounded to the grid, so the edge of the mesh
 /// that it lies on is looked up and the point is taken on that edge, at a 64th of a grid unit and
-/// at least half a unit within the piece. Left and right of the edge are told apart by the sign of
-/// a derivative. The state must be the one that docs/hlr.md defines, contact distance included,
-/// hidden_by_self and hidden_by_other told apart.
+/// at least half a unit within the piece. Left and right of the edge are distinguished by the sign
+/// of a derivative. The state must be the one that docs/hlr.md defines, contact distance included,
+/// hidden_by_self and hidden_by_other distinguished.
 ///
 /// Every second point is of a random piece, every other of a random length of the drawing.
 /// Round primitives are those of the view (model::tessellate_for_view), its direction in lowest

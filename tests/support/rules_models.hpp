@@ -17,19 +17,19 @@
 
 namespace strake::test {
 
-using Told = std::vector<std::string>;
+using ResultLines = std::vector<std::string>;
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
 /// What a rules file makes of a model.
 struct RulesOutcome {
   std::vector<clash::Report> reports;
   Diagnostics diagnostics;
-  std::vector<Told> told;  ///< per test: "a-b HIT", "a-b HIT by RULE"
+  std::vector<ResultLines> reported;  ///< per test: "a-b HIT", "a-b HIT by RULE"
 };
 
 /// "a-b HIT" for each pair of a report, "a-b HIT by RULE" for one that is allowed.
-inline Told told_of(const model::Model& model, const clash::Report& report) {
-  Told all;
+inline ResultLines lines_of(const model::Model& model, const clash::Report& report) {
+  ResultLines all;
   for (const clash::Pair& p : report.pairs) {
     all.push_back(model.object(p.a).id + "-" + model.object(p.b).id + " " +
                   std::string(name(p.cls)));
@@ -52,7 +52,7 @@ inline RulesOutcome run_rules(const model::Model& model, std::string_view text,
   for (const rules::PlannedTest& test : plan.tests) {
     auto report = clash::detect(scene, test.sets, test.options, test.policy, context).value();
     report.name = test.name;
-    outcome.told.push_back(told_of(model, report));
+    outcome.reported.push_back(lines_of(model, report));
     outcome.reports.push_back(std::move(report));
   }
   outcome.diagnostics = plan.diagnostics;
@@ -94,9 +94,9 @@ class Row {
     return run_rules(m_.model, text, context);
   }
   /// What the only test finds.
-  [[nodiscard]] Told hits(std::string_view text) const {
+  [[nodiscard]] ResultLines hits(std::string_view text) const {
     const Outcome outcome = run(text);
-    return outcome.told.size() == 1 ? outcome.told[0] : Told{"no single test"};
+    return outcome.reported.size() == 1 ? outcome.reported[0] : ResultLines{"no single test"};
   }
 
  private:

@@ -35,7 +35,7 @@ export class App {
   private row: number | undefined;
   private addressTimer: ReturnType<typeof setTimeout> | undefined;
   /** what the details tell, and of which results */
-  private told: { rows: ArrayLike<number>; make(): HTMLElement } | undefined;
+  private shownDetails: { rows: ArrayLike<number>; make(): HTMLElement } | undefined;
 
   constructor(
     private readonly report: Report,
@@ -45,7 +45,7 @@ export class App {
     this.live = Live.of(report, {
       shown: () => this.list?.listed.rows ?? new Uint32Array(0),
       changed: () => this.list?.refresh(),
-      decide: (rows) => this.tell(rows, () => markedDetails(rows.length)),
+      decide: (rows) => this.showDetails(rows, () => markedDetails(rows.length)),
       decided: (rows) => this.redecided(rows),
     });
     this.live?.explain(this.help);
@@ -66,7 +66,7 @@ export class App {
 
   start(): void {
     this.list?.update();
-    this.tellNothing();
+    this.showHint();
     const { clash, scene } = this.report.head;
     if (!this.followAddress()) this.go(clash ? 'overview' : this.drawings ? 'drawings' : scene ? 'list' : 'overview');
     void this.scene.open();
@@ -122,26 +122,26 @@ export class App {
     fill(before, this.overview());
     before.firstElementChild!.scrollTop = scrollTop;
     this.list?.redecided();
-    const told = this.told;
-    if (!told) return;
+    const shownDetails = this.shownDetails;
+    if (!shownDetails) return;
     const changed = new Set(rows);
-    for (let i = 0; i < told.rows.length; ++i) {
-      if (!changed.has(told.rows[i]!)) continue;
+    for (let i = 0; i < shownDetails.rows.length; ++i) {
+      if (!changed.has(shownDetails.rows[i]!)) continue;
       this.live?.keepFocus(() => this.fillDetails());
       return;
     }
   }
 
   /** Tells something in the details. Where that is about results, these can be decided about. */
-  private tell(rows: ArrayLike<number>, make: () => HTMLElement): void {
-    this.told = { rows, make };
+  private showDetails(rows: ArrayLike<number>, make: () => HTMLElement): void {
+    this.shownDetails = { rows, make };
     this.live?.about(rows);
     this.fillDetails();
     this.details.scrollTop = 0;
   }
 
   private fillDetails(): void {
-    const { rows, make } = this.told!;
+    const { rows, make } = this.shownDetails!;
     const details = make();
     if (rows.length > 0) this.live?.place(details);
     fill(this.details, details);
@@ -186,10 +186,10 @@ export class App {
   private choose(row: number, fly: boolean): void {
     this.row = row;
     const results = this.report.results!;
-    this.tell([row], () => resultDetails(this.report, row, this.detailEvents()));
+    this.showDetails([row], () => resultDetails(this.report, row, this.detailEvents()));
     this.scene.showResult(row, fly);
     this.drawings?.mark([results.a[row]!, results.b[row]!]);
-    this.tellAddress(`#clash=${results.key.at(row)}`);
+    this.setAddress(`#clash=${results.key.at(row)}`);
   }
 
   private pick(object: number | undefined): void {
@@ -198,7 +198,7 @@ export class App {
       return;
     }
     this.row = undefined;
-    this.tell([], () => objectDetails(this.report, object, this.scene.hasShape(object), this.detailEvents(object)));
+    this.showDetails([], () => objectDetails(this.report, object, this.scene.hasShape(object), this.detailEvents(object)));
     this.scene.showObject(object, false);
     this.drawings?.mark([object]);
   }
@@ -207,12 +207,12 @@ export class App {
     this.row = undefined;
     this.scene.showNothing();
     this.drawings?.mark([]);
-    this.tellNothing();
-    this.tellAddress(' ');
+    this.showHint();
+    this.setAddress(' ');
   }
 
   /** The address is a link to what is chosen. Whoever runs through the list does not wait for it. */
-  private tellAddress(address: string): void {
+  private setAddress(address: string): void {
     clearTimeout(this.addressTimer);
     this.addressTimer = setTimeout(() => {
       try {
@@ -223,8 +223,8 @@ export class App {
     }, 100);
   }
 
-  private tellNothing(): void {
-    this.tell([], () => h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
+  private showHint(): void {
+    this.showDetails([], () => h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
   }
 
   private detailEvents(object?: number): DetailEvents {
@@ -246,7 +246,7 @@ export class App {
     const groups = this.report.groups!;
     this.row = undefined;
     const results = this.report.results!;
-    this.tell(rowsOf(results, group), () => groupDetails(this.report, group, this.detailEvents()));
+    this.showDetails(rowsOf(results, group), () => groupDetails(this.report, group, this.detailEvents()));
     const worst = worstOf(results, group);
     // One of the group stands for it, in colour, amid the place of all of them.
     this.drawings?.mark(worst === undefined ? [] : [results.a[worst]!, results.b[worst]!]);
@@ -260,7 +260,7 @@ export class App {
     const row = this.report.results.key.find(key);
     this.go('list');
     if (row < 0) {
-      this.tell([], () => h('p', { class: 'note', role: 'alert' }, 'This report has no clash of the key that the link names. It may be mended, or the link is of another model.'));
+      this.showDetails([], () => h('p', { class: 'note', role: 'alert' }, 'This report has no clash of the key that the link names. It may be mended, or the link is of another model.'));
       return true;
     }
     this.choose(row, true);

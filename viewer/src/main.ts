@@ -7,7 +7,7 @@ import { dropBlock, findBlock, unpackHead } from './payload/unpack.ts';
 import { fill, h } from './ui/dom.ts';
 
 /** Says in the page why there is no report. */
-function tell(root: HTMLElement, error: unknown): void {
+function showError(root: HTMLElement, error: unknown): void {
   const damaged = error instanceof PayloadError;
   fill(
     root,
@@ -30,7 +30,7 @@ async function open(root: HTMLElement): Promise<void> {
     new App(report, root).start();
     document.documentElement.dataset.ready = performance.now().toFixed(0);
   } catch (error) {
-    tell(root, error);
+    showError(root, error);
   }
 }
 

@@ -30,7 +30,7 @@ struct Question {
     fcl::CollisionResultd result;
     return fcl::collide(a, b, fcl::CollisionRequestd(1, false), result) > 0;
   }
-  static bool ask(Object* a, Object* b, void* self) {
+  static bool test_pair(Object* a, Object* b, void* self) {
     auto& question = *static_cast<Question*>(self);
     const auto number = [](const Object* o) {
       return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(o->getUserData()));
@@ -59,7 +59,7 @@ std::unique_ptr<Object> object_of(const PeerObject& o, std::size_t number, doubl
   return object;
 }
 
-PeerAnswer ask(std::span<const PeerObject> objects, double distance_mm) {
+PeerAnswer test_pair(std::span<const PeerObject> objects, double distance_mm) {
   PeerAnswer answer;
   Lap lap;
   CpuLap cpu;
@@ -75,7 +75,7 @@ PeerAnswer ask(std::span<const PeerObject> objects, double distance_mm) {
   manager.setup();
   answer.build_s = cpu();
   Question question{distance_mm, {}};
-  manager.collide(&question, Question::ask);
+  manager.collide(&question, Question::test_pair);
   answer.pairs = std::move(question.pairs);
   std::sort(answer.pairs.begin(), answer.pairs.end());
   answer.query_s = cpu();
@@ -86,9 +86,9 @@ PeerAnswer ask(std::span<const PeerObject> objects, double distance_mm) {
 
 }  // namespace
 
-PeerAnswer fcl_overlaps(std::span<const PeerObject> objects) { return ask(objects, 0); }
+PeerAnswer fcl_overlaps(std::span<const PeerObject> objects) { return test_pair(objects, 0); }
 PeerAnswer fcl_within(std::span<const PeerObject> objects, double distance_mm) {
-  return ask(objects, distance_mm);
+  return test_pair(objects, distance_mm);
 }
 
 }  // namespace strake::bench

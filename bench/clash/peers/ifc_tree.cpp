@@ -12,7 +12,7 @@ PeerAnswer ifc_tree_overlaps(const std::filesystem::path& scene, unsigned thread
   std::filesystem::path pairs = scene, log = scene;
   pairs.replace_extension(".ifc.pairs");
   log.replace_extension(".ifc.log");
-  ProgramReply reply = ask_program({"python3", STRAKE_CLASH_PEER_SCRIPTS "/ifc_tree.py",
+  ProgramReply reply = run_program({"python3", STRAKE_CLASH_PEER_SCRIPTS "/ifc_tree.py",
                                     scene.string(), std::to_string(threads), pairs.string()},
                                    limit_s, log);
   PeerAnswer answer;

@@ -46,10 +46,10 @@ FoundPairs::FoundPairs(const std::vector<IndexPair>& found, const KnownPairs& kn
 }
 
 bool FoundPairs::right() const {
-  const double most = question_.extra_percent / 100 * static_cast<double>(all_);
+  const double largest = question_.extra_percent / 100 * static_cast<double>(all_);
   return crossing_ == known_.crossing.size() &&
          (!question_.distances || near_ == known_.near.size()) &&
-         static_cast<double>(extra_) <= most;
+         static_cast<double>(extra_) <= largest;
 }
 
 std::string FoundPairs::text() const {

@@ -20,11 +20,11 @@ struct KnownPairs {
 };
 [[nodiscard]] KnownPairs known_from(const clash::Report& report, double reach_mm);
 
-/// What a peer is asked for, and what can be promised for it.
+/// What is requested of a peer, and what can be promised for it.
 struct PairQuestion {
   std::string text;
   bool distances = false;      ///< near pairs, too
-  double extra_percent = 0.5;  ///< of what it finds may be none of what it was asked for
+  double extra_percent = 0.5;  ///< of what it finds may be none of what was requested of it
 };
 
 /// How what a peer found compares with what is known.
@@ -33,7 +33,7 @@ class FoundPairs {
   FoundPairs(const std::vector<geometry::IndexPair>& found, const KnownPairs& known,
              const PairQuestion& question);
 
-  /// Every crossing pair, and every near one where that is asked for; no more others than stated.
+  /// Every crossing pair, and every near one where that is requested; no more others than stated.
   [[nodiscard]] bool right() const;
   /// Returns "all 51 crossing pairs found, 0 others that are apart; ...".
   [[nodiscard]] std::string text() const;

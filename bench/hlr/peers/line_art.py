@@ -27,7 +27,7 @@ def load(path):
     bpy.ops.wm.obj_import(filepath=path, forward_axis='Y', up_axis='Z', global_scale=1 / MM_PER_UNIT)
 
 
-def look(direction):
+def set_camera(direction):
     """An orthographic camera that holds the whole scene."""
     scene = bpy.context.scene
     corners = [o.matrix_world @ Vector(c) for o in scene.objects for c in o.bound_box]
@@ -86,7 +86,7 @@ def main():
     direction = Vector(float(x) for x in toward.split(',')).normalized()
     begin = time.time()
     load(path)
-    look(direction)
+    set_camera(direction)
     kinds = kinds.split(',')
     drawing = line_art(kinds, float(sharp_deg))
     loaded, cpu = time.time(), time.process_time()

@@ -64,11 +64,11 @@ const std::vector<Peer>& peers() {
   return all;
 }
 
-PeerAnswer ask(const Peer& peer, const Question& question) {
+PeerAnswer run_peer(const Peer& peer, const Question& question) {
   const std::filesystem::path stem = question.scratch / peer.name;
   const std::string lines = stem.string() + ".lines";
   PeerAnswer answer{
-      ask_program(command_of(peer, question, lines), question.limit_s, stem.string() + ".log"), {}};
+      run_program(command_of(peer, question, lines), question.limit_s, stem.string() + ".log"), {}};
   if (answer.reply.outcome == cli::kMeasured) answer.lines = read_lines(lines);
   return answer;
 }

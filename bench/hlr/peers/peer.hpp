@@ -29,7 +29,7 @@ struct MoreLines {
 struct Peer {
   std::string_view name, title;
   MoreLines draws;  ///< what it draws whether one wants it or not, or what it can
-  /// Kinds that are compared, together: not all peers tell them apart alike.
+  /// Kinds that are compared, together: not all peers distinguish them alike.
   std::vector<std::string_view> compared;
 };
 
@@ -57,6 +57,6 @@ struct PeerAnswer {
   std::vector<PeerLine> lines;
 };
 
-[[nodiscard]] PeerAnswer ask(const Peer& peer, const Question& question);
+[[nodiscard]] PeerAnswer run_peer(const Peer& peer, const Question& question);
 
 }  // namespace strake::bench

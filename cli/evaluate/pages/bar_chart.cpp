@@ -23,12 +23,13 @@ constexpr double kLegendHeight = 20;
 constexpr std::array<std::string_view, 5> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                    "#56b4e9"};
 
-/// Returns the step between the lines of a scale from 0 to `most`: 1, 2 or 5 times a power of ten.
-double step_of(double most) {
+/// Returns the step between the lines of a scale from 0 to `maximum`: 1, 2 or 5 times a power of
+/// ten.
+double step_of(double maximum) {
   constexpr double kLines = 6;
-  const double power = std::pow(10, std::floor(std::log10(most / kLines)));
+  const double power = std::pow(10, std::floor(std::log10(maximum / kLines)));
   for (const double factor : {1.0, 2.0, 5.0})
-    if (most / (factor * power) <= kLines) return factor * power;
+    if (maximum / (factor * power) <= kLines) return factor * power;
   return 10 * power;
 }
 
@@ -37,10 +38,10 @@ class ChartWriter {
  public:
   explicit ChartWriter(const BarChart& chart) : chart_(chart) {
     for (const BarChart::Series& series : chart.series)
-      for (const double value : series.values) most_ = std::max(most_, value);
-    for (const BarChart::Level& level : chart.levels) most_ = std::max(most_, level.value);
-    if (!(most_ > 0) || !std::isfinite(most_)) most_ = 1;
-    most_ *= 1.05;
+      for (const double value : series.values) maximum_ = std::max(maximum_, value);
+    for (const BarChart::Level& level : chart.levels) maximum_ = std::max(maximum_, level.value);
+    if (!(maximum_ > 0) || !std::isfinite(maximum_)) maximum_ = 1;
+    maximum_ *= 1.05;
   }
 
   std::string write() {
@@ -67,12 +68,12 @@ class ChartWriter {
   }
   static std::string text(std::string_view plain) { return drawing::xml_escaped(plain); }
   [[nodiscard]] double y(double value) const {
-    return kMarginTop + kPlotHeight * (1 - value / most_);
+    return kMarginTop + kPlotHeight * (1 - value / maximum_);
   }
 
   void write_scale() {
-    const double step = step_of(most_);
-    for (int i = 0; i * step <= most_; ++i) {
+    const double step = step_of(maximum_);
+    for (int i = 0; i * step <= maximum_; ++i) {
       const double at = y(i * step);
       put(R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" stroke="#dddddd"/>)", kMarginLeft,
           kChartWidth - kMarginRight, at, at);
@@ -129,7 +130,7 @@ class ChartWriter {
   }
 
   const BarChart& chart_;
-  double most_ = 0;
+  double maximum_ = 0;
   std::string text_;
 };
 

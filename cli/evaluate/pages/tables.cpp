@@ -36,7 +36,7 @@ std::string title_of(const std::string& stage) {
 }
 
 TableSection summary(const EvaluationRecord& record) {
-  const unsigned threads = most_threads(record);
+  const unsigned threads = max_threads(record);
   TableSection section;
   section.id = "summary";
   section.table = {
@@ -75,7 +75,7 @@ std::pair<std::string, std::string> thesis_way(const StageRecord& stage, double 
 }
 
 TableSection speedups(const EvaluationRecord& record, const std::string& stage) {
-  const unsigned threads = most_threads(record);
+  const unsigned threads = max_threads(record);
   TableSection section;
   section.id = "speed-up-" + stage;
   section.table = {
@@ -127,7 +127,7 @@ TableSection thesis_ways(const EvaluationRecord& record) {
                    "there are.",
                    {"Case", "Stage", "Ours s", "Thesis's way s", "Times ours"},
                    {}};
-  const unsigned threads = most_threads(record);
+  const unsigned threads = max_threads(record);
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages) {
       const ContenderRecord* const ours =
@@ -173,7 +173,7 @@ TableSection by_threads(const EvaluationRecord& record) {
 
 /// Shows what each worker did in the case that takes longest of each stage.
 TableSection distribution(const EvaluationRecord& record) {
-  const unsigned threads = most_threads(record);
+  const unsigned threads = max_threads(record);
   TableSection section;
   section.id = "workers";
   section.table = {"Distribution over the workers",
@@ -187,10 +187,10 @@ TableSection distribution(const EvaluationRecord& record) {
       const ContenderRecord* const run = find_contender(stage, kOurs, threads);
       if (run == nullptr) return;
       const std::vector<double> busy = busy_seconds(*run);
-      const auto [least, most] = std::ranges::minmax(busy);
-      section.table.rows.push_back({one.title, stage.name, number(least, 3), number(most, 3)});
-      if (most <= longest_s) return;
-      longest_s = most;
+      const auto [least, largest] = std::ranges::minmax(busy);
+      section.table.rows.push_back({one.title, stage.name, number(least, 3), number(largest, 3)});
+      if (largest <= longest_s) return;
+      longest_s = largest;
       chart = {fmt::format("{}, {}: busy time of each worker", one.title, stage.name),
                "s",
                {},
@@ -241,9 +241,9 @@ TableSection work(const EvaluationRecord& record) {
       {}};
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages) {
-      std::set<std::string> seen{kAgain, kOurs};
+      std::set<std::string> listed{kAgain, kOurs};
       for (const ContenderRecord& run : stage.contenders) {
-        if (run.counters.empty() || !seen.insert(run.name).second) continue;
+        if (run.counters.empty() || !listed.insert(run.name).second) continue;
         std::string counters;
         for (const auto& [name, value] : run.counters)
           counters += fmt::format("{}{} {}", counters.empty() ? "" : ", ", name, value);

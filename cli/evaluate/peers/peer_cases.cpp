@@ -37,9 +37,9 @@ std::string_view peer_program(PeerJob job) {
 }
 
 std::uint64_t peer_objects(const PeerCase& one, double scale) {
-  constexpr double kLeast = 500;
-  const auto most = static_cast<double>(generate::ShipOptions::kMaxObjects);
-  return static_cast<std::uint64_t>(std::clamp(one.full_objects * scale, kLeast, most));
+  constexpr double kMin = 500;
+  const auto largest = static_cast<double>(generate::ShipOptions::kMaxObjects);
+  return static_cast<std::uint64_t>(std::clamp(one.full_objects * scale, kMin, largest));
 }
 
 std::vector<std::string> peer_question(const PeerCase& one, double scale) {

@@ -27,7 +27,7 @@ struct PeerCase {
 [[nodiscard]] std::string_view peer_program(PeerJob job);
 /// Returns how many objects the ship of a case has.
 [[nodiscard]] std::uint64_t peer_objects(const PeerCase& one, double scale);
-/// Returns what the program is told of ship and peer.
+/// Returns what the program is reported ship and peer.
 [[nodiscard]] std::vector<std::string> peer_question(const PeerCase& one, double scale);
 
 }  // namespace strake::cli

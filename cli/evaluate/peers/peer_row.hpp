@@ -25,7 +25,7 @@ struct PeerRow {
   std::uint64_t objects = 0, triangles = 0;
   unsigned threads = 0;  ///< that the peer used
   std::string who, version;
-  std::string answers;  ///< what it is asked for: "pairs whose triangles meet"
+  std::string answers;  ///< what is requested of it: "pairs whose triangles meet"
   double cpu_s = 0, wall_s = 0;
   double ours_cpu_s = 0, ours_wall_s = 0;  ///< Strake's on the same triangles, in the same run
   std::string outcome{kNotThere};          ///< one of kPeerOutcomes

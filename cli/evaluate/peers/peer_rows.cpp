@@ -27,13 +27,13 @@ Error no_peer_rows(const std::string& name, const std::string& what) {
 std::string fault_of_counts(const nlohmann::json& row) {
   struct Count {
     const char* name;
-    std::uint64_t most;
+    std::uint64_t largest;
   };
-  for (const auto& [name, most] : {Count{"objects", std::numeric_limits<std::uint64_t>::max()},
-                                   Count{"triangles", std::numeric_limits<std::uint64_t>::max()},
-                                   Count{"threads", std::numeric_limits<unsigned>::max()}}) {
+  for (const auto& [name, largest] : {Count{"objects", std::numeric_limits<std::uint64_t>::max()},
+                                      Count{"triangles", std::numeric_limits<std::uint64_t>::max()},
+                                      Count{"threads", std::numeric_limits<unsigned>::max()}}) {
     const nlohmann::json& value = row.at(name);
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > largest)
       return "\"" + std::string(name) + "\" is " + value.dump() + ", which is no count";
   }
   return {};

@@ -83,9 +83,9 @@ class PeerRun {
         break;
     }
     // It ends with another status where a result disagrees, too.
-    const bool told =
+    const bool disagrees =
         std::ranges::find(record.rows, kDisagrees, &PeerRow::outcome) != record.rows.end();
-    if (end.code != 0 && !told)
+    if (end.code != 0 && !disagrees)
       return fmt::format("exit status {}: {}", end.code, io::tail_of(end.output, kTail));
     return record.rows.empty() ? "it ended without an answer" : std::string();
   }

@@ -14,7 +14,7 @@ namespace strake::cli {
 
 namespace {
 
-/// Draws in one way on the most workers; `what` is told.
+/// Draws in one way on the most workers; `what` is reported.
 Result<StudyRun> draw(const StudyInput& input, const StudyView& view, const hlr::Options& options,
                       const std::string& what) {
   input.narrate(what);
@@ -70,7 +70,7 @@ Status study_bucketing(const StudyInput& input, StudyRecord& study) {
 }
 
 Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
-  constexpr double kMostObjects = 16'000;
+  constexpr double kMaxObjects = 16'000;
   study.columns = {"Objects",    "Gather s",           "Push s", "Times",
                    "Face tests", "Face tests of push", "Equal"};
   const ViewCase& view = view_named("iso");
@@ -78,7 +78,7 @@ Status study_push_and_gather(const StudyInput& input, StudyRecord& study) {
     generate::ShipOptions ship = viewed_ship(ViewedShip::whole, 1);
     // At any scale the sizes differ.
     const double scale = std::clamp(input.settings.scale, 0.0625, 1.0);
-    ship.objects = static_cast<std::uint64_t>(kMostObjects * part * scale);
+    ship.objects = static_cast<std::uint64_t>(kMaxObjects * part * scale);
     hlr::Options by_push;
     by_push.solver = hlr::Solver::push;
     const auto runs =

@@ -96,7 +96,7 @@ Status study_gap(const StudyInput& input, StudyRecord& study) {
     if (!scene) return scene.error();
     clash::Options spheres = exact;
     spheres.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
-    spheres.engine.most_spheres = std::uint64_t{1} << 40U;  // the limit of time ends it
+    spheres.engine.max_spheres = std::uint64_t{1} << 40U;  // the limit of time ends it
     std::array<StudyRun, 2> runs;
     for (std::size_t way = 0; way < runs.size(); ++way) {
       input.narrate(fmt::format("gap, {:g} mm: {}", gap, way == 0 ? "ours" : "spheres"));

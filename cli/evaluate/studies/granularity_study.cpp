@@ -24,7 +24,7 @@ constexpr std::size_t kCells = 7;  // between the unit of work and the note
 struct WorkUnit {
   std::string algorithm, name;
   Contender contender;
-  std::size_t least_chunk = 1;
+  std::size_t min_chunk = 1;
   std::vector<std::string_view> regions = {};  ///< that have these items
 };
 
@@ -78,8 +78,8 @@ Status run_units(const StudyInput& input, const std::vector<WorkUnit>& units, St
   StudyRun first;
   for (const WorkUnit& unit : units) {
     input.narrate(fmt::format("granularity, {}: {}", unit.algorithm, unit.name));
-    Result<StudyRun> run = run_for_study(input, unit.contender,
-                                         {.least_chunk = unit.least_chunk, .with_regions = true});
+    Result<StudyRun> run =
+        run_for_study(input, unit.contender, {.min_chunk = unit.min_chunk, .with_regions = true});
     if (!run) return run.error();
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);
@@ -138,16 +138,16 @@ Status add_object_pairs(const StudyInput& input, const SkewedScene& scene, Study
   const Result<clash::Report> report =
       clash::detect(placed, clash::one_set(placed), options, {.stop = input.stop});
   if (!report) return report.error();
-  double all = 0, most = 0;
+  double all = 0, largest = 0;
   for (const clash::LoggedPair& pair : report->log) {
     const auto cost = static_cast<double>(pair.cost());
     all += cost;
-    most = std::max(most, cost);
+    largest = std::max(largest, cost);
   }
   const double share = all / kWorkersOfExample;
   std::vector<std::string> cells(kCells, "-");
   cells[1] = std::to_string(report->log.size());
-  if (most > 0) cells[5] = fmt::format("{:.2f}", std::min(1.0, share / most));
+  if (largest > 0) cells[5] = fmt::format("{:.2f}", std::min(1.0, share / largest));
   add_unit_row(
       kClash, "pair of objects", std::move(cells),
       "by counted work: equal pairs of parts are evaluated once for all objects, so that no "

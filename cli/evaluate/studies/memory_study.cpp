@@ -27,7 +27,7 @@ std::uint64_t allowed_bytes(std::uint64_t sequential_bytes, unsigned threads) {
 }
 
 /// Returns the most memory of the process while a contender ran once, the least of the rounds: what
-/// else the process freed late belongs to none. 0: unknown. `hash` is told the result's.
+/// else the process freed late belongs to none. 0: unknown. `hash` receives the result's.
 Result<std::uint64_t> peak_of(const StudyInput& input, const Contender& contender,
                               std::string& hash) {
   std::optional<std::uint64_t> least;

@@ -65,7 +65,7 @@ void find_in_hierarchy(const SceneBvh& tree, const std::vector<Box3l>& boxes, st
   }
 }
 
-/// Asks a tree for the pairs of every box; stops early where it is asked to.
+/// Queries a tree for the pairs of every box; stops early where it is requested to.
 template <class Find>
 TreeSearch search_all(std::size_t boxes, const std::stop_token& stop, const Find& find) {
   TreeSearch search;
@@ -102,8 +102,8 @@ TreeFigures figures_of_octree(const StudyInput& input, const std::vector<Box3l>&
   return figures;
 }
 
-/// Returns the figures of the hierarchy over boxes; `joined` is told the hash of the pairs that the
-/// engine finds by it.
+/// Returns the figures of the hierarchy over boxes; `joined` receives the hash of the pairs that
+/// the engine finds by it.
 Result<TreeFigures> figures_of_hierarchy(const StudyInput& input, const std::vector<Box3l>& boxes,
                                          std::string& joined) {
   std::vector<geometry::BoxItem> items(boxes.size());

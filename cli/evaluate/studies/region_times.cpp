@@ -51,8 +51,8 @@ std::vector<std::string> region_columns() {
 
 std::vector<std::string> cells_of(const parallel::RegionReport& region) {
   if (region.busy_s.empty()) return std::vector<std::string>(region_columns().size(), "-");
-  const auto [least, most] = std::ranges::minmax(region.busy_s);
-  return {fmt::format("{:.3f}", least), fmt::format("{:.3f}", most),
+  const auto [least, largest] = std::ranges::minmax(region.busy_s);
+  return {fmt::format("{:.3f}", least), fmt::format("{:.3f}", largest),
           fmt::format("{:.2f}", region.load_balance()), fmt::format("{:.2f}", region.bound()),
           fmt::format("{:.4f}", region.longest_s)};
 }

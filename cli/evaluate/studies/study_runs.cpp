@@ -36,7 +36,7 @@ Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contend
                                     .stop = limit.token(),
                                     .report = conditions.with_regions ? &report : nullptr,
                                     .distribution = conditions.distribution,
-                                    .least_chunk = conditions.least_chunk};
+                                    .min_chunk = conditions.min_chunk};
     const Stopwatch watch;
     Result<Computed> computed = contender.compute(context);
     const double took = watch.seconds();

@@ -17,15 +17,15 @@ namespace strake::cli {
 /// How a contender of a study runs.
 struct StudyConditions {
   parallel::Distribution distribution = parallel::Distribution::planned;
-  std::size_t least_chunk = 1;  ///< as of parallel::Context
-  bool with_regions = false;    ///< regions are reported, which reads clocks for each block
+  std::size_t min_chunk = 1;  ///< as of parallel::Context
+  bool with_regions = false;  ///< regions are reported, which reads clocks for each block
 };
 
 /// Timed runs of one contender.
 struct StudyRun {
   double seconds = 0;  ///< the median
   Computed computed;
-  std::vector<parallel::RegionReport> regions;  ///< of the fastest round, where asked for
+  std::vector<parallel::RegionReport> regions;  ///< of the fastest round, where requested
   std::string unfinished;                       ///< why it has no result; empty: it has
 
   /// Returns the seconds as text, or why there are none.

@@ -16,8 +16,8 @@ Result<StudyView> place_view(const StudyInput& input, const ViewCase& view,
                              const generate::ShipOptions& options) {
   Result<PlacedModel> ship = place_ship(options, {}, input.stop);
   if (!ship) return ship.error();
-  const hlr::View seen = view_of(view, ship->box);
-  return StudyView{std::move(*ship), seen};
+  const hlr::View hlr_view = view_of(view, ship->box);
+  return StudyView{std::move(*ship), hlr_view};
 }
 
 Result<SkewedScene> place_skewed_scene(const StudyInput& input) {

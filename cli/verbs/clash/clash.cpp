@@ -44,7 +44,7 @@ struct ClashOptions {
   SetInput sets;
   std::array<std::string, clash::kToleranceLengths.size()> tolerances;
   std::string contact_distance;
-  std::string broad_phase, narrow_phase, thickness_cap, contacts, fail_on, most_pairs, most_spheres,
+  std::string broad_phase, narrow_phase, thickness_cap, contacts, fail_on, max_pairs, max_spheres,
       rules, profile;
   bool list_exempted = false, curves = false;
   ClashResultInput result;
@@ -57,13 +57,13 @@ struct ClashOptions {
 
 Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
   clash::EngineOptions engine;
-  if (const Status status = whole_number(engine.most_pairs, given.most_pairs, "--most-pairs");
+  if (const Status status = whole_number(engine.max_pairs, given.max_pairs, "--most-pairs");
       !status)
     return status.error();
-  if (const Status status = whole_number(engine.most_spheres, given.most_spheres, "--most-spheres");
+  if (const Status status = whole_number(engine.max_spheres, given.max_spheres, "--most-spheres");
       !status)
     return status.error();
-  if (const Status status = whole_number(engine.most_regions, given.result.regions, "--regions");
+  if (const Status status = whole_number(engine.max_regions, given.result.regions, "--regions");
       !status)
     return status.error();
   if (given.broad_phase == "all-pairs") engine.broad_phase = clash::BroadPhase::all_pairs;
@@ -171,7 +171,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
                      .table = !json};
   for (const std::string& file : given.outputs) {
     files.csv = files.csv || suffix_of(file) == ".csv";
-    // What has no format is told of where its name is looked at.
+    // What has no format is reported where its name is looked at.
     const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
     files.attributes = files.attributes || (writer && writer->attributes);
     files.bcf = files.bcf || is_bcf(file);
@@ -225,7 +225,7 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   return request;
 }
 
-/// Returns the tests of the rules file, or the one that the command line asks for.
+/// Returns the tests of the rules file, or the one that the command line requests.
 Result<rules::Plan> plan_of(Session& session, const LoadedModel& loaded,
                             const ClashRequest& request) {
   const auto timer = session.step("select");
@@ -408,11 +408,11 @@ Result<const report::DecidedResults*> decisions_on_findings(
     if (!status) return status.error();
     return source.project->decided();
   }
-  Result<std::optional<report::DecidedResults>> looked_up =
+  Result<std::optional<report::DecidedResults>> found =
       decide(session, given.decisions, request.decisions, findings, *source.loaded.model,
              given.contacts == "count" && lists_contacts(request));
-  if (!looked_up) return looked_up.error();
-  from_file = std::move(*looked_up);
+  if (!found) return found.error();
+  from_file = std::move(*found);
   const report::DecidedResults* const decided = from_file ? &*from_file : nullptr;
   return decided;
 }
@@ -446,8 +446,8 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (const Status status = put_out(session, given, *request, loaded, *decided, *findings, project);
       !status)
     return status.error();
-  const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
-  if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
+  const bool hints = !request->rules && given.profile.empty() && given.result.group_by.empty();
+  if (session.console().narrates() && !session.json() && hints && request->output.classes.hit)
     if (const std::string hint = concentration_hint(*findings, *loaded.model, *decided);
         !hint.empty())
       session.console().note(hint);
@@ -509,6 +509,31 @@ void add_rules(CLI::App& command, ClashOptions& options) {
       ->group("Rules");
 }
 
+/// Adds how the engine finds and evaluates pairs, and its limits.
+void add_engine_options(CLI::App& command, ClashOptions& options) {
+  add_choice(command, "--broad-phase", options.broad_phase, {"tree", "all-pairs"},
+             "How near pairs are found; the result is the same (default tree)")
+      ->group("Running");
+  add_choice(command, "--narrow-phase", options.narrow_phase, {"exact", "sphere-subdivision"},
+             "How pairs are evaluated: exactly, or by the baseline that benchmarks compare with "
+             "(default exact)")
+      ->group("Running");
+  command
+      .add_option("--most-spheres", options.max_spheres,
+                  fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
+                              "it gives up and says so (default {})",
+                              clash::EngineOptions{}.max_spheres))
+      ->type_name("N")
+      ->group("Running");
+  command
+      .add_option("--most-pairs", options.max_pairs,
+                  fmt::format("Most pairs of parts that may be within reach of each other, some "
+                              "300 bytes each (default {})",
+                              clash::EngineOptions{}.max_pairs))
+      ->type_name("N")
+      ->group("Running");
+}
+
 }  // namespace
 
 Verb add_clash(CLI::App& program, CommonOptions& common) {
@@ -528,27 +553,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_picture_options(*command, options->pictures);
   add_clash_project_options(*command, options->project);
   command->get_option("--project")->excludes(command->get_option("--decisions"));
-  add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
-             "How near pairs are found; the result is the same (default tree)")
-      ->group("Running");
-  add_choice(*command, "--narrow-phase", options->narrow_phase, {"exact", "sphere-subdivision"},
-             "How pairs are evaluated: exactly, or by the baseline that benchmarks compare with "
-             "(default exact)")
-      ->group("Running");
-  command
-      ->add_option("--most-spheres", options->most_spheres,
-                   fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
-                               "it gives up and says so (default {})",
-                               clash::EngineOptions{}.most_spheres))
-      ->type_name("N")
-      ->group("Running");
-  command
-      ->add_option("--most-pairs", options->most_pairs,
-                   fmt::format("Most pairs of parts that may be within reach of each other, some "
-                               "300 bytes each (default {})",
-                               clash::EngineOptions{}.most_pairs))
-      ->type_name("N")
-      ->group("Running");
+  add_engine_options(*command, *options);
   add_output_option(*command, options->outputs, "Result", publish::clash_formats());
   add_distribution_option(*command, common);
   add_scheduler_options(*command, common);

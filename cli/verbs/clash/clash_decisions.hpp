@@ -46,7 +46,7 @@ struct DecisionRequest {
     Session& session, const DecisionInput& input, const std::optional<DecisionRequest>& request,
     clash::Findings& findings, const model::Model& model, bool counts_contacts);
 
-/// Writes the file of contents.decided back with the results that it lacks, if that is asked for.
+/// Writes the file of contents.decided back with the results that it lacks, if that is requested.
 /// Errors: output, where somebody changed the file since it was read.
 [[nodiscard]] Status write_decisions(Session& session, const DecisionInput& input,
                                      const DecisionRequest& request,

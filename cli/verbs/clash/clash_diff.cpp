@@ -139,11 +139,11 @@ Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
                               const std::string& file) {
   Result<OpenedProject> opened = open_project(session, file);
   if (!opened) return opened.error();
-  project::ComparedRuns asked{given.test, {}};
-  if (!given.runs.empty()) asked.runs.emplace(given.runs.front(), given.runs.back());
+  project::ComparedRuns request{given.test, {}};
+  if (!given.runs.empty()) request.runs.emplace(given.runs.front(), given.runs.back());
   const auto timer = session.step("compare");
   Result<std::unique_ptr<project::RunComparison>> made =
-      project::compare_runs(opened->project.database(), asked);
+      project::compare_runs(opened->project.database(), request);
   if (!made) {
     Error error = made.error();
     if (error.where.empty()) error.where = opened->file;

@@ -103,19 +103,19 @@ Result<std::optional<project::RunRecord>> record_of_last_run(project::Database& 
   return project::read_run_record(database, **run);
 }
 
-/// Returns what is asked for; where nothing is, how the run grouped.
+/// Returns what is requested; where nothing is, how the run grouped.
 ClashGroupingInput grouping_or_that_of_run(const ClashGroupingInput& input,
                                            const std::optional<project::RunRecord>& run) {
-  ClashGroupingInput asked = input;
+  ClashGroupingInput requested = input;
   if (input.first_given() == nullptr && run && !run->grouping.by.empty()) {
-    asked.result.group_by = run->grouping.by;
-    asked.result.group_distance = run->grouping.distance;
-    asked.result.group_contacts = run->grouping.contacts;
-    asked.result.sort = run->grouping.sort;
-    asked.classes = run->grouping.classes;
+    requested.result.group_by = run->grouping.by;
+    requested.result.group_distance = run->grouping.distance;
+    requested.result.group_contacts = run->grouping.contacts;
+    requested.result.sort = run->grouping.sort;
+    requested.classes = run->grouping.classes;
   }
-  if (asked.result.group_by.empty()) asked.result.group_by = name(clash::GroupBy::element);
-  return asked;
+  if (requested.result.group_by.empty()) requested.result.group_by = name(clash::GroupBy::element);
+  return requested;
 }
 
 std::string key_of_group(std::vector<std::string> clashes) {
@@ -168,9 +168,9 @@ Result<std::vector<ProjectGroup>> groups_of_last_run(Session& session, OpenedPro
   project::Database& database = opened.project.database();
   const Result<std::optional<project::RunRecord>> run = record_of_last_run(database);
   if (!run) return run.error();
-  const ClashGroupingInput asked = grouping_or_that_of_run(input, *run);
+  const ClashGroupingInput requested = grouping_or_that_of_run(input, *run);
   ClashOutputInput shown;
-  shown.classes = asked.classes;
+  shown.classes = requested.classes;
   const Result<ClashOutput> output = clash_output(shown, {});
   if (!output) return output.error();
   const Result<OpenResults> open = open_results(session, database, *run, output->classes);
@@ -184,15 +184,15 @@ Result<std::vector<ProjectGroup>> groups_of_last_run(Session& session, OpenedPro
     return Error{ErrorCode::usage, "the model changed since its clashes were grouped", opened.file,
                  "run 'strake clash -p " + opened.file + "' first"};
   const Result<std::optional<clash::Grouping>> grouping =
-      group(session, asked.result, open->findings, *model, nullptr);
+      group(session, requested.result, open->findings, *model, nullptr);
   if (!grouping) return grouping.error();
   std::vector<ProjectGroup> groups;
   for (const clash::Group& group : (**grouping).groups) {
-    ProjectGroup& told = groups.emplace_back(ProjectGroup{{}, group.id, group.name, {}});
+    ProjectGroup& project_group = groups.emplace_back(ProjectGroup{{}, group.id, group.name, {}});
     for (const clash::ResultRef& result : group.results)
       if (const std::string& key = open->keys[result.test][result.pair]; !key.empty())
-        told.clashes.push_back(key);
-    told.key = key_of_group(told.clashes);
+        project_group.clashes.push_back(key);
+    project_group.key = key_of_group(project_group.clashes);
   }
   return groups;
 }

@@ -18,7 +18,7 @@ namespace strake::cli {
 namespace {
 
 /// So few hits are looked at one by one.
-constexpr std::uint64_t kLeastHits = 20;
+constexpr std::uint64_t kMinHits = 20;
 
 /// What an object is a part of: its assembly, or its file where it has none.
 struct AssemblyOrFile {
@@ -58,8 +58,8 @@ HitsByWhole hits_of(const clash::Findings& findings, const model::Model& model,
 
 /// Returns the hint about hits between parts of one assembly, if they are half of all.
 std::string hint_of_parts(const HitsByWhole& hits, bool typed) {
-  constexpr std::uint64_t kLeastPart = 2;
-  if (hits.within * kLeastPart < hits.all) return {};
+  constexpr std::uint64_t kMinPart = 2;
+  if (hits.within * kMinPart < hits.all) return {};
   return fmt::format(
       "{} of {} hits lie between parts of one assembly: --group-by assembly has a line for each; "
       "{}[[same_assembly]] of a rules file leaves them out",
@@ -68,17 +68,17 @@ std::string hint_of_parts(const HitsByWhole& hits, bool typed) {
 
 /// Returns the hint about the pair of assemblies with most hits, if it has a quarter of all.
 std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
-  constexpr std::uint64_t kLeastPart = 4;
-  const auto most =
+  constexpr std::uint64_t kMinPart = 4;
+  const auto largest =
       std::ranges::max_element(hits.by_pair, {}, [](const auto& entry) { return entry.second; });
-  if (most == hits.by_pair.end() || most->second * kLeastPart < hits.all) return {};
+  if (largest == hits.by_pair.end() || largest->second * kMinPart < hits.all) return {};
   const auto name = [&](const AssemblyOrFile& whole) {
     return printable(whole.is_file() ? model.files[whole.file].label
                                      : model.groups[index(whole.assembly)].name);
   };
-  const auto& [a, b] = most->first;
-  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line", most->second,
-                     hits.all,
+  const auto& [a, b] = largest->first;
+  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line",
+                     largest->second, hits.all,
                      a == b ? "within " + name(a) : "between " + name(a) + " and " + name(b));
 }
 
@@ -88,10 +88,10 @@ std::string concentration_hint(const clash::Findings& findings, const model::Mod
                                const report::DecidedResults* decided) {
   std::uint64_t count = 0;
   for (const clash::Report& test : findings.tests) count += test.count_hit;
-  if (count < kLeastHits) return {};
+  if (count < kMinHits) return {};
   const model::ObjectAssemblies assemblies(model);
   const HitsByWhole hits = hits_of(findings, model, assemblies, decided);
-  if (hits.all < kLeastHits) return {};
+  if (hits.all < kMinHits) return {};
   const std::string within = hint_of_parts(hits, assemblies.typed());
   return within.empty() ? hint_of_pair(hits, model) : within;
 }

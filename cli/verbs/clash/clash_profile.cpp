@@ -42,9 +42,9 @@ Status apply_profile(const rules::Rules& profile, const model::Scene& scene,
   Result<rules::Plan> applied = profile.plan(scene, context);
   if (!applied) return applied.error();
   plan.tests.front().policy = std::move(applied->tests.front().policy);
-  for (const Diagnostic& told : applied->diagnostics.kept())
-    if (told.code != rules::kMatchesNothing && told.code != rules::kShadowed)
-      plan.diagnostics.add(told);
+  for (const Diagnostic& diagnostic : applied->diagnostics.kept())
+    if (diagnostic.code != rules::kMatchesNothing && diagnostic.code != rules::kShadowed)
+      plan.diagnostics.add(diagnostic);
   return {};
 }
 

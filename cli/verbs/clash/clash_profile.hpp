@@ -13,7 +13,7 @@ namespace CLI {  // NOLINT(readability-identifier-naming): the library's own nam
 class App;
 }  // namespace CLI
 
-/// Profiles: rules on top of the one test that a command line asks for, whose sets and tolerances
+/// Profiles: rules on top of the one test that a command line requests, whose sets and tolerances
 /// stay as they are.
 namespace strake::cli {
 

@@ -122,13 +122,13 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
 }
 
 Result<LoadedModel> ProjectClashes::load(Session& session, const model::SceneOptions& options,
-                                         std::span<const rules::FileSettings> said_of_files) {
+                                         std::span<const rules::FileSettings> file_settings) {
   const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
   if (!moment) return moment.error();
   const Result<Hash128> seal = project::model_seal(opened_.project.database());
   if (!seal) return seal.error();
   model_seal_ = *seal;
-  Result<LoadedModel> loaded = load_project(session, opened_, options, said_of_files);
+  Result<LoadedModel> loaded = load_project(session, opened_, options, file_settings);
   if (loaded) scene_ = hash_of_scene(*seal, *loaded, options);
   return loaded;
 }

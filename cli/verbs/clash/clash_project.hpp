@@ -52,7 +52,7 @@ class ProjectClashes {
                                                    const ClashProjectInput& input);
 
   [[nodiscard]] Result<LoadedModel> load(Session& session, const model::SceneOptions& options,
-                                         std::span<const rules::FileSettings> said_of_files);
+                                         std::span<const rules::FileSettings> file_settings);
   /// Runs the tests of a plan; of those that ran before, what changed since.
   [[nodiscard]] Result<clash::Findings> find(Session& session, const LoadedModel& loaded,
                                              rules::Plan plan, bool list_exempted);

@@ -38,7 +38,7 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
           length_option(rules.distance_mm, input.group_distance, "--group-distance");
       !status)
     return status.error();
-  if (!(rules.distance_mm >= clash::kLeastGroupDistanceMm))
+  if (!(rules.distance_mm >= clash::kMinGroupDistanceMm))
     return Error{ErrorCode::usage, "'" + input.group_distance + "' is less than a millimetre",
                  "--group-distance", "give a length such as 3m"};
   return rules;
@@ -78,7 +78,7 @@ void add_result_options(CLI::App& command, ClashResultInput& options) {
       .add_option("--regions", options.regions,
                   fmt::format("Contact regions that are listed of a pair with several, the worst "
                               "first; all are counted (default {}; 0: none are searched for)",
-                              clash::EngineOptions{}.most_regions))
+                              clash::EngineOptions{}.max_regions))
       ->type_name("N")
       ->group(kGroup);
 }
@@ -96,10 +96,10 @@ Status check(const ClashResultInput& input) {
 }
 
 std::size_t terminal_width() {
-  constexpr std::size_t kDefault = 100, kLeast = 40;
+  constexpr std::size_t kDefault = 100, kMin = 40;
   winsize size{};
   if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
-  return std::max<std::size_t>(size.ws_col, kLeast);
+  return std::max<std::size_t>(size.ws_col, kMin);
 }
 
 namespace {
@@ -250,13 +250,13 @@ std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
   return empty;
 }
 
-/// Returns in words why clearances from an attribute are less than they ask for.
+/// Returns in words why clearances from an attribute are less than they request.
 std::vector<std::string> lowered_clearances(const clash::Findings& findings) {
   std::vector<std::string> lowered;
   const Diagnostics diagnostics = findings.all_diagnostics();
-  for (const Diagnostic& told : diagnostics.kept())
-    if (told.code == rules::kNotALength || told.code == rules::kNoSuchAttribute)
-      lowered.push_back(told.message);
+  for (const Diagnostic& diagnostic : diagnostics.kept())
+    if (diagnostic.code == rules::kNotALength || diagnostic.code == rules::kNoSuchAttribute)
+      lowered.push_back(diagnostic.message);
   return lowered;
 }
 

@@ -41,7 +41,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests);
 /// Adds the pairs that cost most to --stats.
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model);
 
-/// Returns the groups, if any are asked for, without what decisions settle.
+/// Returns the groups, if any are requested, without what decisions settle.
 [[nodiscard]] Result<std::optional<clash::Grouping>> group(Session& session,
                                                            const ClashResultInput& input,
                                                            const clash::Findings& findings,
@@ -67,7 +67,7 @@ struct FailingPairs {
 /// class of --fail-on or a worse one, where a pair was not compared, where a file ends early and
 /// where a test compared nothing, as a set of it is empty. Else it is `partial` where --strict is
 /// given and something was skipped, a set or a discipline that a matrix checks is empty, or a
-/// clearance got less than its attribute asks for.
+/// clearance got less than its attribute requests.
 [[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
                                        const std::string& fail_on, const InputOptions& input,
                                        const LoadedModel& loaded, Console& console);

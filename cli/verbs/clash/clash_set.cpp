@@ -40,10 +40,10 @@ Status check_bcf(const ClashSetOptions& given) {
   if (given.bcf.empty() && !given.prefer.empty())
     return Error{ErrorCode::usage, "no .bcf is read", "--prefer", "add --bcf FILE"};
   if (given.bcf.empty()) return {};
-  const bool says_more = !given.keys.empty() || !given.select.empty() || !given.group.empty() ||
-                         !given.status.empty() || given.comment || given.assignee ||
-                         given.grouping.first_given() != nullptr;
-  if (says_more)
+  const bool selects = !given.keys.empty() || !given.select.empty() || !given.group.empty() ||
+                       !given.status.empty() || given.comment || given.assignee ||
+                       given.grouping.first_given() != nullptr;
+  if (selects)
     return Error{ErrorCode::usage, "a BCF file says what is decided about which clashes", "--bcf",
                  "leave out keys, --select, --group, --status, --comment and --assignee"};
   return {};

@@ -170,7 +170,8 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
 }
 
-void add_lines(CLI::App& command, DrawOptions& options) {
+/// Adds which lines besides visible edges come on paper.
+void add_drawn_lines(CLI::App& command, DrawOptions& options) {
   add_choice(command, "--hidden", options.hidden, {"off", "dashed", "all"},
              fmt::format("Hidden lines in {}: none, dashed where no line runs beside them, or all "
                          "(default off)",
@@ -198,6 +199,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                   "a length, or a nominal size as DN50; off (default off)")
       ->type_name("off|DN|LENGTH")
       ->group("Lines");
+}
+
+/// Adds how lines are drawn.
+void add_line_styles(CLI::App& command, DrawOptions& options) {
   command
       .add_option(
           "--thin", options.thin,
@@ -216,6 +221,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                       suffixes_by_ink(true))))
       ->type_name("STYLE")
       ->group("Lines");
+}
+
+/// Adds what hides lines, and which.
+void add_visibility(CLI::App& command, DrawOptions& options) {
   command
       .add_flag(
           "--visible-only", options.visible_only,
@@ -235,6 +244,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "Polylines behind or inside faces of their own object, as centre lines in pipes: seen "
              "through them, or hidden by them (default visible)")
       ->group("Lines");
+}
+
+/// Adds which edges of a surface are lines.
+void add_edge_kinds(CLI::App& command, DrawOptions& options) {
   add_choice(command, "--smooth", options.smooth, {"off", "tangent", "on"},
              "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
              "curved surface begins or ends, or all (default off)")
@@ -254,6 +267,51 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                   "of the files)")
       ->type_name("LENGTH")
       ->group("Lines");
+}
+
+/// Adds how lines are solved; the drawing is the same.
+void add_running(CLI::App& command, DrawOptions& options) {
+  add_choice(command, "--solver", options.solver, {"gather", "brute-force"},
+             "How lines are hidden; the result is the same. brute-force is an oracle for small "
+             "scenes, which tries every edge with every triangle: seconds for 10,000 triangles, "
+             "days for a million (default gather)")
+      ->group("Running");
+  add_choice(
+      command, "--global", options.global, {"gather", "push"},
+      "How objects hide each other: each edge gathers what hides it, or each object "
+      "publishes what it hides, the baseline that benchmarks compare with; the result is the "
+      "same (default gather)")
+      ->excludes("--solver")
+      ->group("Running");
+  add_choice(command, "--culling", options.culling, {"on", "off"},
+             "Leave out the work that cannot change the result (default on)")
+      ->group("Running");
+  command
+      .add_option(
+          "--bucketing", options.bucketing,
+          "How the faces of complex objects are found: in a grid of at most N by N buckets, "
+          "in as many as suit the faces (auto), or by testing each face (off); the result is "
+          "the same (default auto)")
+      ->type_name("off|N|auto")
+      ->group("Running");
+}
+
+/// Adds the scale, the sheet and its title.
+void add_paper(CLI::App& command, DrawOptions& options) {
+  command
+      .add_option("--scale", options.scale,
+                  "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
+                  "paper)")
+      ->type_name("1:N")
+      ->group("Output");
+  command
+      .add_option("--paper", options.paper,
+                  "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
+                  "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
+                  "and larger where --scale asks for it)")
+      ->type_name("SIZE")
+      ->group("Output");
+  command.add_option("--title", options.title, "Title of the sheet")->group("Output");
 }
 
 /// Adds -p and what a project remembers of drawings.
@@ -343,44 +401,12 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   command->get_option("files")->required(false);  // 'strake draw diff' has files of its own
   add_scene_options(*command, options->scene, "0.05mm on paper, 0.5mm at most");
   add_view(*command, *options);
-  add_lines(*command, *options);
-  add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
-             "How lines are hidden; the result is the same. brute-force is an oracle for small "
-             "scenes, which tries every edge with every triangle: seconds for 10,000 triangles, "
-             "days for a million (default gather)")
-      ->group("Running");
-  add_choice(
-      *command, "--global", options->global, {"gather", "push"},
-      "How objects hide each other: each edge gathers what hides it, or each object "
-      "publishes what it hides, the baseline that benchmarks compare with; the result is the "
-      "same (default gather)")
-      ->excludes("--solver")
-      ->group("Running");
-  add_choice(*command, "--culling", options->culling, {"on", "off"},
-             "Leave out the work that cannot change the result (default on)")
-      ->group("Running");
-  command
-      ->add_option(
-          "--bucketing", options->bucketing,
-          "How the faces of complex objects are found: in a grid of at most N by N buckets, "
-          "in as many as suit the faces (auto), or by testing each face (off); the result is "
-          "the same (default auto)")
-      ->type_name("off|N|auto")
-      ->group("Running");
-  command
-      ->add_option("--scale", options->scale,
-                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
-                   "paper)")
-      ->type_name("1:N")
-      ->group("Output");
-  command
-      ->add_option("--paper", options->paper,
-                   "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
-                   "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
-                   "and larger where --scale asks for it)")
-      ->type_name("SIZE")
-      ->group("Output");
-  command->add_option("--title", options->title, "Title of the sheet")->group("Output");
+  add_drawn_lines(*command, *options);
+  add_line_styles(*command, *options);
+  add_visibility(*command, *options);
+  add_edge_kinds(*command, *options);
+  add_running(*command, *options);
+  add_paper(*command, *options);
   add_output_option(*command, options->outputs, "Drawing", publish::drawing_formats());
   add_stored(*command, *options);
   add_sheet(*command, *options);

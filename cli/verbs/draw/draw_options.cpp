@@ -142,7 +142,7 @@ Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console
     if (!angle) return angle.error();
     perspective.field_of_view_deg = *angle;
   }
-  const Result<drawing::Direction> direction = drawing::see_from(perspective, view);
+  const Result<drawing::Direction> direction = drawing::set_perspective(perspective, view);
   if (!direction) {
     Error error = direction.error();
     error.where = "--target";

@@ -106,10 +106,10 @@ Status read_bucketing(const std::string& text, std::int32_t& bucketing) {
   bucketing = hlr::Options::kNoBuckets;
   if (text == "off") return {};
   std::uint64_t side = 0;
-  if (!whole_number(side, text, "--bucketing") || side == 0 || side > hlr::Options::kMostBuckets)
+  if (!whole_number(side, text, "--bucketing") || side == 0 || side > hlr::Options::kMaxBuckets)
     return Error{
         ErrorCode::usage, "'" + text + "' is no number of buckets", "--bucketing",
-        fmt::format("write off, auto, or a number from 1 to {}", hlr::Options::kMostBuckets)};
+        fmt::format("write off, auto, or a number from 1 to {}", hlr::Options::kMaxBuckets)};
   bucketing = static_cast<std::int32_t>(side);
   return {};
 }

@@ -19,7 +19,7 @@
 #include "strake/model/selection.hpp"
 #include "strake/model/single_lines.hpp"
 
-/// What `draw` is asked for: as it was written, and parsed.
+/// What is requested of `draw`: as it was written, and parsed.
 namespace strake::cli {
 
 /// --limits that leave far objects out.
@@ -42,7 +42,7 @@ struct DrawOptions {
   bool verify = false, full = false;
 };
 
-/// What the options ask for, after parsing.
+/// What the options request, after parsing.
 struct DrawRequest {
   model::SceneOptions scene;
   hlr::View view;
@@ -64,7 +64,7 @@ struct DrawRequest {
 /// Parses --scale, --paper and --title. Errors: usage.
 [[nodiscard]] Result<drawing::LayoutOptions> layout_options(const DrawOptions& given);
 
-/// Returns what --hidden asks for.
+/// Returns what --hidden requests.
 [[nodiscard]] drawing::InkOptions ink_options(const DrawOptions& given);
 
 /// Parses --centre-lines, --break-lines and --thin. Errors: usage.

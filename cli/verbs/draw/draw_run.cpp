@@ -110,10 +110,10 @@ Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
 Result<hlr::Drawing> solve(Session& session, const DrawRequest& request,
                            const PreparedView& prepared, const model::Scene& scene) {
   if (prepared.options.solver == hlr::Solver::brute_force)
-    if (const Status told =
+    if (const Status status =
             print_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
-        !told)
-      return told.error();
+        !status)
+      return status.error();
   const auto timer = session.step("hidden lines");
   return hlr::draw(scene, prepared.drawn, request.view, prepared.options, session.context());
 }

@@ -21,7 +21,7 @@ struct PreparedView {
   drawing::LayoutOptions layout;
 };
 
-/// Makes lines of the pipes of a scene where they are asked for, and says how many. Errors:
+/// Makes lines of the pipes of a scene where they are requested, and says how many. Errors:
 /// cancelled.
 [[nodiscard]] Status draw_pipes_as_lines(Session& session, const DrawRequest& request,
                                          model::Scene& scene);

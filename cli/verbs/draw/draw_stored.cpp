@@ -33,11 +33,11 @@ namespace strake::cli {
 
 namespace {
 
-/// The view, as it is asked for and as the project has it.
+/// The view, as it is requested and as the project has it.
 struct ViewOfProject {
   std::string name;
   DrawOptions solved;  ///< whose lines are those of the view
-  DrawOptions shown;   ///< the same on the sheet that this run asks for
+  DrawOptions shown;   ///< the same on the sheet that this run requests
 };
 
 /// How the lines of a view came about.
@@ -222,8 +222,8 @@ Status remember(Session& session, const DrawOptions& given, const project::ViewT
 /// Tells where this run's scale would have had finer curves than the lines have.
 void note_coarse_curves(Session& session, const drawing::NeutralDrawing& drawing,
                         const hlr::Drawing& lines) {
-  constexpr double kSeenMm = 0.051;  // on paper; a little more than sag_for_paper() allows
-  if (lines.curves.edges.empty() || lines.sag_mm <= kSeenMm * drawing.sheet.scale) return;
+  constexpr double kVisibleMm = 0.051;  // on paper; a little more than sag_for_paper() allows
+  if (lines.curves.edges.empty() || lines.sag_mm <= kVisibleMm * drawing.sheet.scale) return;
   session.console().note(
       fmt::format("curves are as fine as the view was saved for, within {:.2g} mm; at {} that may "
                   "show: --save the view with this scale for finer ones",
@@ -272,7 +272,7 @@ class StoredRun {
     return drawing;
   }
 
-  /// Stores the view as it was asked for, and its lines where they are not those that are stored.
+  /// Stores the view as it was requested, and its lines where they are not those that are stored.
   Status store() {
     project::ViewToStore view;
     view.name = view_.name;
@@ -377,8 +377,8 @@ DrawOptions as_stored(const OpenedProject& opened, const std::string& view) {
 }  // namespace
 
 Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened, const std::string& view) {
-  const Result<ViewOfProject> asked = view_to_draw(as_stored(opened, view), opened);
-  if (!asked) return asked.error();
+  const Result<ViewOfProject> view_request = view_to_draw(as_stored(opened, view), opened);
+  if (!view_request) return view_request.error();
   Result<project::FormerDrawing> former = [&] {
     const auto timer = session.step("stored lines");
     return project::former_drawing(opened.project.database(), view, session.context());
@@ -388,7 +388,7 @@ Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened, const 
     if (error.where.empty()) error.where = opened.file;
     return error;
   }
-  const Result<DrawRequest> request = request_of(asked->solved, session, true);
+  const Result<DrawRequest> request = request_of(view_request->solved, session, true);
   if (!request) return request.error();
   drawing::LayoutOptions layout = request->layout;
   layout.far_left_out = std::move(former->far_objects);
@@ -397,7 +397,8 @@ Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened, const 
   Result<drawing::NeutralDrawing> drawing =
       drawing::lay_out(former->drawing, former->model, layout, session.context());
   if (!drawing) return drawing.error();
-  return FormerSheet{std::move(*drawing), std::move(former->model), ink_options(asked->shown)};
+  return FormerSheet{std::move(*drawing), std::move(former->model),
+                     ink_options(view_request->shown)};
 }
 
 Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,
@@ -411,15 +412,15 @@ Result<report::ViewDocument> stored_document(Session& session, OpenedProject& op
 Result<report::ViewDocument> document_of_now(Session& session, OpenedProject& opened,
                                              const std::string& view) {
   const DrawOptions given = as_stored(opened, view);
-  const Result<ViewOfProject> asked = view_to_draw(given, opened);
-  if (!asked) return asked.error();
-  const Result<DrawRequest> request = request_of(asked->solved, session, true);
+  const Result<ViewOfProject> view_request = view_to_draw(given, opened);
+  if (!view_request) return view_request.error();
+  const Result<DrawRequest> request = request_of(view_request->solved, session, true);
   if (!request) return request.error();
   Result<LoadedModel> loaded = load_project(session, opened, request->scene);
   if (!loaded) return loaded.error();
   if (const Status status = draw_pipes_as_lines(session, *request, loaded->scene); !status)
     return status.error();
-  StoredRun run(session, given, *asked, *request, *loaded);
+  StoredRun run(session, given, *view_request, *request, *loaded);
   if (const Status status = run.find_lines(opened); !status) return status.error();
   const Result<drawing::NeutralDrawing> drawing = run.lay_out();
   if (!drawing) return drawing.error();

@@ -21,8 +21,8 @@ namespace strake::cli {
 /// holds.
 [[nodiscard]] std::string scale_words(const drawing::NeutralDrawing& drawing);
 
-/// Returns a sentence for each of what was asked to be left whole or out: "3 objects are left whole
-/// by the sections", "flush seams of 12 edges are left out".
+/// Returns a sentence for each of what was requested to be left whole or out: "3 objects are left
+/// whole by the sections", "flush seams of 12 edges are left out".
 [[nodiscard]] std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing);
 
 /// Returns how many lines were left out as they are too near to each other on paper.

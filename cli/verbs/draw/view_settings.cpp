@@ -151,18 +151,18 @@ Result<DrawOptions> parse_settings(std::string_view text, const std::string& whe
 std::string first_option_of_lines(const DrawOptions& given) {
   DrawOptions options = given;
   std::string first;
-  const auto look = [&](const auto& some) {
+  const auto find_in = [&](const auto& some) {
     for (const auto& setting : some) {
       const auto& value = setting.of(options);
       if (first.empty() && value != std::remove_cvref_t<decltype(value)>{})
         first = "--" + std::string(setting.name);
     }
   };
-  look(kTextsOfLines);
-  look(kLists);
-  look(kFlags);
-  look(kTextsOfWork);
-  look(kListsOfWork);
+  find_in(kTextsOfLines);
+  find_in(kLists);
+  find_in(kFlags);
+  find_in(kTextsOfWork);
+  find_in(kListsOfWork);
   return first;
 }
 

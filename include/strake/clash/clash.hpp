@@ -34,7 +34,8 @@ struct Counters {
   std::uint64_t depth_cells = 0;  ///< steps of searches for depth; spheres of sphere_subdivision
   std::uint64_t volume_triangle_pairs = 0;
   std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
-  std::uint64_t regions_given_up = 0;  ///< pairs of objects whose regions could not be told apart
+  std::uint64_t regions_given_up =
+      0;  ///< pairs of objects whose regions could not be distinguished
 };
 
 /// A pair of objects that went to the narrow phase, whatever came of it.
@@ -94,7 +95,7 @@ struct CellReport {
 struct NotCompared {
   model::ObjectId a{};
   std::optional<model::ObjectId> b = {};  ///< absent: a lacks geometry, so any pair of it is meant
-  std::string_view code;                  ///< the code of the diagnostic that tells why; a literal
+  std::string_view code;                  ///< the code of the diagnostic that says why; a literal
 };
 
 /// How many objects could not be compared whole, and how many pairs not at all.
@@ -127,7 +128,7 @@ struct Report {
   bool lists_exempted = false;               ///< whether exempted pairs are listed as well
   std::vector<ExemptedPair> exempted_pairs;  ///< by (a, b, rule)
   std::vector<AllowedCount> allowed;         ///< one entry per rule in force
-  bool levels = false;                       ///< whether levels were told apart
+  bool levels = false;                       ///< whether levels were distinguished
   std::vector<DisciplineCount> disciplines;  ///< of the matrix, if the test has one
   std::vector<CellReport> cells;             ///< by (a, b)
   std::vector<std::uint32_t> discipline;     ///< an entry per object; kNoLabel: in no discipline
@@ -137,7 +138,7 @@ struct Report {
   bool within_files = true;  ///< whether pairs of objects of one file were checked
   /// Objects of the sets in their order, then pairs by (a, b).
   std::vector<NotCompared> not_compared;
-  std::vector<LoggedPair> log;         ///< where asked for; by (a, b)
+  std::vector<LoggedPair> log;         ///< where requested; by (a, b)
   std::optional<KeptForChanges> kept;  ///< with EngineOptions::keep_for_changes
   Counters counters;
   double contact_distance_mm = 0;  ///< the largest δ that was applied
@@ -177,7 +178,7 @@ struct Sets {
 [[nodiscard]] Sets one_set(const model::Scene& scene);
 
 /// Returns how fine a scene must be tessellated for these options: to a quarter of the smaller
-/// tolerance, so that a contact of tessellated primitives can be told from its neighbours.
+/// tolerance, so that a contact of tessellated primitives can be distinguished from its neighbours.
 [[nodiscard]] model::SceneOptions scene_options(const Options& options);
 
 /// Returns every pair of objects, one of set A and one of set B, that is not NO_HIT.
@@ -187,7 +188,7 @@ struct Sets {
 /// 2. Parts of one object are no pair; wires (polylines) only with EngineOptions::curves.
 ///
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
-/// wrong size; input for more pairs than most_pairs; cancelled.
+/// wrong size; input for more pairs than max_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
 

@@ -37,14 +37,18 @@ enum class SortBy : std::uint8_t {
 };
 
 /// The least distance of groups.
-inline constexpr double kLeastGroupDistanceMm = 1;
+inline constexpr double kMinGroupDistanceMm = 1;
+
+/// The former name of kMinGroupDistanceMm.
+[[deprecated("it is called kMinGroupDistanceMm")]] inline constexpr double kLeastGroupDistanceMm =
+    kMinGroupDistanceMm;
 
 struct GroupRules {
   GroupBy by = GroupBy::element;
   double distance_mm = 3000;  ///< for GroupBy::proximity and `apart`; at least the least one
   SortBy sort = SortBy::depth;
   /// Contacts are mostly meant, and so many that they join everything to everything: they belong to
-  /// no group unless asked for.
+  /// no group unless requested.
   bool contacts = false;
   /// Results of a group are split by proximity as well: a group is about one element, say, at one
   /// place.
@@ -79,7 +83,7 @@ struct Grouping {
 /// Tells whether a result belongs to no group, as one that is approved.
 using LeavesOut = std::function<bool(const ResultRef&)>;
 
-/// Puts every result that no rule allows, that is no contact unless asked for and that is not left
+/// Puts every result that no rule allows, that is no contact unless requested and that is not left
 /// out, in exactly one group. The grouping is the same for any order of files and objects. Errors:
 /// usage for a distance below 1 mm or not a number.
 [[nodiscard]] Result<Grouping> group_results(const Findings& findings, const model::Model& model,

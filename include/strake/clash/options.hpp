@@ -47,7 +47,7 @@ struct EngineOptions {
   NarrowPhase narrow_phase = NarrowPhase::exact;
   /// How many spheres sphere_subdivision may test for one pair of parts before it gives up,
   /// flagged.
-  std::uint64_t most_spheres = 1'000'000;
+  std::uint64_t max_spheres = 1'000'000;
   /// Whether to measure the volume of the part common to two solids that hit.
   Volumes volumes = Volumes::off;
   /// Whether lines and polylines are checked, as bodies without thickness; with the exact narrow
@@ -58,17 +58,17 @@ struct EngineOptions {
   /// are the same. Contacts that may be something else are listed all the same.
   Contacts contacts = Contacts::list;
   /// How many of the separate regions of a pair are listed; 0: they are not looked for.
-  std::uint64_t most_regions = 8;
+  std::uint64_t max_regions = 8;
   /// Whether Report::log is filled.
   bool log_pairs = false;
   /// Whether Report::kept is filled, from which detect_changes() follows a later change.
   bool keep_for_changes = false;
   /// The most pairs of parts within reach of each other, some 300 bytes each; more are an error.
-  std::uint64_t most_pairs = std::uint64_t{1} << 25U;
+  std::uint64_t max_pairs = std::uint64_t{1} << 25U;
 
   /// Returns how many of so many regions are listed.
   [[nodiscard]] std::uint32_t regions_listed_of(std::uint32_t places) const {
-    return places < most_regions ? places : static_cast<std::uint32_t>(most_regions);
+    return places < max_regions ? places : static_cast<std::uint32_t>(max_regions);
   }
 };
 

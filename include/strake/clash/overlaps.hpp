@@ -18,7 +18,7 @@ struct ObjectPair {
 /// ascending order, the same for any team. It finds neither class nor depth: it is for previews and
 /// spatial joins, and takes a third of the time of detect().
 ///
-/// Of the options only the broad phase and most_pairs count. Pairs of parts that lie too far from
+/// Of the options only the broad phase and max_pairs count. Pairs of parts that lie too far from
 /// each other for exact arithmetic (fits_pair()) have no point in common. Errors: as detect().
 [[nodiscard]] Result<std::vector<ObjectPair>> overlapping_pairs(const model::Scene& scene,
                                                                 const Sets& sets,

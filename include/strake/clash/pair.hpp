@@ -20,10 +20,11 @@ enum class Level : std::uint8_t { hard, soft, insulation, none };
 
 /// Bits of Pair::flags.
 enum Flag : std::uint16_t {
-  kBorderline = 1U << 0U,  ///< d cannot be told from a threshold: the severer class is given
-  kUncertain = 1U << 1U,   ///< the bracket straddles a threshold: the class is that of d
-  kOpen = 1U << 2U,        ///< one of the two is an open surface
-  kInverted = 1U << 3U,    ///< one of the two came inside out
+  kBorderline =
+      1U << 0U,  ///< d cannot be distinguished from a threshold: the severer class is given
+  kUncertain = 1U << 1U,  ///< the bracket straddles a threshold: the class is that of d
+  kOpen = 1U << 2U,       ///< one of the two is an open surface
+  kInverted = 1U << 3U,   ///< one of the two came inside out
 };
 
 /// One of several regions where a pair of objects meets or comes too near.
@@ -61,7 +62,7 @@ struct Pair {
   /// False where a search for the depth ended at its work limit and left the bracket wider than it
   /// aims for.
   bool depth_complete = true;
-  /// For a HIT of solids, where asked for: the volume of the common parts of their parts, added up
+  /// For a HIT of solids, where requested: the volume of the common parts of their parts, added up
   /// (what two parts of one object cover twice counts twice), with curved primitives as
   /// tessellated. It is absent where it would take too long.
   std::optional<double> volume_mm3 = {};
@@ -73,12 +74,12 @@ struct Pair {
   /// rule allows this one, its own class. It is more than cls only with kUncertain. NO_HIT says
   /// that whatever the two turn out to be is allowed.
   Class severest = Class::no_hit;
-  /// Where asked for: the number of separate regions, 0 where there are too many triangles to tell
-  /// them apart. If there are several, as many as asked for are listed from
+  /// Where requested: the number of separate regions, 0 where there are too many triangles to tell
+  /// them apart. If there are several, as many as requested are listed from
   /// Report::regions[first_region] on.
   std::uint32_t regions = 0, first_region = 0;
   /// For a result that no rule allows: the number of its regions that a rule does allow, which
-  /// `regions` leaves out. They are counted whether regions are asked for or not; as many as asked
+  /// `regions` leaves out. They are counted whether regions are requested or not; as many as asked
   /// for are listed behind the others.
   std::uint32_t allowed_regions = 0;
 

@@ -106,7 +106,7 @@ struct Policy {
 ///
 /// 1. A pair that no rule concerns gives bit for bit what it gives without rules; a pair of a cell
 ///    with tolerances of its own gives what it gives in a test with these.
-/// 2. An exempted pair is counted, and listed where asked for, if parts of the two are within reach
+/// 2. An exempted pair is counted, and listed where requested, if parts of the two are within reach
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
 /// 3. An allowed result keeps its class and d. The rules are applied to each pair of parts by
 ///    itself (a volume is that of the two objects): one that no rule allows decides the pair, and

@@ -9,7 +9,7 @@ namespace strake::clash {
 
 /// Which of its results a test reports, allowed or not. The others are counted
 /// (Report::not_reported). What is not certain is reported: a result flagged kUncertain whatever
-/// its relation, and a hit whose common volume may be as large as asked for, or is not known.
+/// its relation, and a hit whose common volume may be as large as requested, or is not known.
 struct Reporting {
   /// A pair is reported where it, or any two parts of it, stand so to each other; empty: however
   /// they do.

@@ -15,7 +15,7 @@ namespace strake::drawing {
 
 struct CentreLineOptions {
   /// Round parts of a smaller diameter on paper have none, mm.
-  double least_diameter_mm = 2;
+  double min_diameter_mm = 2;
 };
 
 /// Reads "on", "off" (none), or the least diameter on paper, as "4mm". Errors: usage.

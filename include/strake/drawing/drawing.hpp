@@ -140,7 +140,7 @@ struct NeutralDrawing {
   std::vector<std::string> uncut_selections;  ///< as LayoutOptions has them, in order and each once
   double single_line_mm = 0;                  ///< as LayoutOptions has it
   double contact_distance_mm = 0;
-  double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
+  double sag_mm = 0;    ///< the sag requested of curved primitives; 0: unknown
   double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body
   Sheet sheet;
   std::vector<Line> lines;

@@ -60,7 +60,11 @@ class ObjectStyles {
 };
 
 /// The most styles that one drawing has.
-inline constexpr std::size_t kMostObjectStyles = 1000;
+inline constexpr std::size_t kMaxObjectStyles = 1000;
+
+/// The former name of kMaxObjectStyles.
+[[deprecated("it is called kMaxObjectStyles")]] inline constexpr std::size_t kMostObjectStyles =
+    kMaxObjectStyles;
 
 /// Reads "#rrggbb". Errors: usage.
 [[nodiscard]] Result<model::Color> parse_color(std::string_view text);

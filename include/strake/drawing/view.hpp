@@ -11,11 +11,11 @@
 
 namespace strake::drawing {
 
-/// A view direction in integers, with its error against the direction asked for.
+/// A view direction in integers, with its error against the direction requested.
 struct Direction {
   geometry::Vec3l vector;     ///< points to the viewer (or up); no common factor
   bool rounded = false;       ///< the text's decimals needed more than 20 bits
-  double rounding_error = 0;  ///< sine of the angle between the direction asked for and `vector`
+  double rounding_error = 0;  ///< sine of the angle between the direction requested and `vector`
 };
 
 /// Returns the direction to the viewer of "top", "bottom", "front", "back", "left", "right" or
@@ -33,9 +33,16 @@ struct Direction {
 
 /// Makes a view one in perspective: its direction becomes that from the target to the eye, which is
 /// returned with its rounding. Error: the two are the same point.
-[[nodiscard]] Result<Direction> see_from(const hlr::Perspective& perspective, hlr::View& view);
+[[nodiscard]] Result<Direction> set_perspective(const hlr::Perspective& perspective,
+                                                hlr::View& view);
 
-/// A section plane, with the error of its normal against the one asked for.
+/// The former name of set_perspective().
+[[deprecated("it is called set_perspective()")]] [[nodiscard]] inline Result<Direction> see_from(
+    const hlr::Perspective& perspective, hlr::View& view) {
+  return set_perspective(perspective, view);
+}
+
+/// A section plane, with the error of its normal against the one requested.
 struct SectionText {
   hlr::Section section;
   bool rounded = false;

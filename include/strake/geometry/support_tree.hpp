@@ -38,8 +38,8 @@ class SupportTree {
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] SupportPoint support_along(const Vec3d& n) const;
 
-  /// Returns at most `most` of the points in a box, in an order that depends on the points alone.
-  [[nodiscard]] std::vector<Vec3i> points_within(const Box3d& box, std::size_t most) const;
+  /// Returns at most `limit` of the points in a box, in an order that depends on the points alone.
+  [[nodiscard]] std::vector<Vec3i> points_within(const Box3d& box, std::size_t limit) const;
 
   /// Whether n·v <= level for all points; also false where that takes visits to more than `boxes`
   /// boxes. Subtracts the boxes visited.

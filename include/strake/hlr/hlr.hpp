@@ -57,7 +57,7 @@ enum class EdgeKind : std::uint8_t {
   intersection,  ///< where the skins of two parts pass through each other
   section,       ///< where a section plane cuts a part
   hatch,         ///< a hatch line on the face of a cut through a solid
-  smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
+  smooth,        ///< where two faces turn by no more than the sharp angle, if requested
   single_line,   ///< the axis of a pipe that is drawn as a line: see model::pipes_as_lines()
 };
 inline constexpr EdgeKind kLastEdgeKind = EdgeKind::single_line;
@@ -133,8 +133,8 @@ struct Options {
   double sag_mm = 0;
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
-  static constexpr std::int32_t kMostBuckets = 4096;
-  /// How the faces of a part are found. A number from 1 to kMostBuckets: by so many buckets along
+  static constexpr std::int32_t kMaxBuckets = 4096;
+  /// How the faces of a part are found. A number from 1 to kMaxBuckets: by so many buckets along
   /// the longer side of the part on paper, fewer where they would list its faces over and over.
   /// kBucketsByData: by as many as suit its faces and edges, or a tree. kNoBuckets: each face is
   /// tested. Changes the work, never the answer.
@@ -258,7 +258,7 @@ struct Drawing {
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
   double weld_mm = -1;             ///< the scene's model::SceneOptions::weld_mm
-  double sag_mm = 0;               ///< the sag asked for of curved primitives; 0: unknown
+  double sag_mm = 0;               ///< the sag requested of curved primitives; 0: unknown
   std::vector<EdgePiece> pieces;   ///< sorted by (object, edge, parameter)
   Curves curves;
   /// By object: edges whose hidden pieces were left out, and clipped pieces that were, if any.

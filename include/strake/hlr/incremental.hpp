@@ -25,7 +25,7 @@ struct Signatures {
   Hash128 view;                  ///< of the view, and of the options that can change the drawing
   std::vector<Hash128> objects;  ///< of each object: its bodies on the grid, whether it is drawn …
   /// The box of each object that is drawn, however a view tessellates it, in grid units; empty for
-  /// the others, and where there are no bodies. Drawings to come ask for those of this one.
+  /// the others, and where there are no bodies. Drawings to come request those of this one.
   std::vector<geometry::Box3l> boxes;
 };
 

@@ -25,7 +25,7 @@ struct SceneOptions {
 };
 
 /// Returns the contact distance of a body whose source has this precision (Body::precision_um), in
-/// grid units. It is what the source's numbers cannot tell apart: two units in the last place, and
+/// grid units. It is what the source's numbers cannot distinguish: two units in the last place, and
 /// what the grid rounds.
 [[nodiscard]] double contact_distance(float precision_um);
 
@@ -62,7 +62,7 @@ inline constexpr std::string_view kVanished = "shape-vanished";
 /// are.
 struct IncompleteObject {
   ObjectId object{};
-  /// The code of the diagnostic that tells why, or "object-incomplete", "object-skipped"; a
+  /// The code of the diagnostic that says why, or "object-incomplete", "object-skipped"; a
   /// literal.
   std::string_view code;
   friend auto operator<=>(const IncompleteObject&, const IncompleteObject&) = default;
@@ -79,9 +79,9 @@ struct Scene {
   std::vector<GridBody> bodies;  ///< by object, then in the model's order
   std::vector<std::uint32_t>
       first_body;              ///< per object, with one more at the end; objects may have none
-  std::uint64_t left_out = 0;  ///< bodies of categories that were not asked for
+  std::uint64_t left_out = 0;  ///< bodies of categories that were not requested
   Diagnostics diagnostics;     ///< inverted, open, degenerate, unplaceable …
-  std::vector<IncompleteObject> lacking = {};  ///< ascending; for the categories asked for
+  std::vector<IncompleteObject> lacking = {};  ///< ascending; for the categories requested
   double sag_mm = 0;    ///< the sag of tessellated primitives; 0: not by make_scene()
   double weld_mm = -1;  ///< as SceneOptions::weld_mm
 

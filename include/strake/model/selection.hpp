@@ -69,7 +69,7 @@ class Selection {
                                                           const Scene& scene,
                                                           const parallel::Context& context);
 
-/// Says that a selection picks no object; where it asks for an attribute that no object and no
+/// Says that a selection picks no object; where it requests an attribute that no object and no
 /// group has, this too, with the names of those there are, the commonest first.
 [[nodiscard]] std::string picks_nothing(const Selection& selection, const Model& model);
 

@@ -23,7 +23,7 @@ enum class Distribution : std::uint8_t {
 
 /// How a long computation runs; passed explicitly to everything that takes time. All parts may be
 /// absent: no team means the same code on the calling thread with the same blocks and so the same
-/// bytes, no progress and no report mean that nobody asked.
+/// bytes, no progress and no report mean that nobody needs it.
 struct Context {
   Executor* team = nullptr;      ///< a Team, or a host's workers; null: sequential
   std::stop_token stop = {};     ///< triggered: return ErrorCode::cancelled soon
@@ -32,7 +32,7 @@ struct Context {
   Distribution distribution = Distribution::planned;
   /// Blocks that a worker takes at once, at least, whatever a region says: for measurements of how
   /// coarse the work may be. 0 counts as 1.
-  std::size_t least_chunk = 1;
+  std::size_t min_chunk = 1;
 };
 
 /// Returns how many workers a region of the run has: for other programs that are told how many

@@ -38,7 +38,7 @@ template <class T, class Count, class Fill>
   std::vector<std::size_t>& at = *offsets;
   Status counted = for_each(context, region, [&](std::size_t i) { at[i + 1] = count(i); });
   if (!counted) return std::move(counted).error();
-  if (Status summed = detail::sum_up(context, at); !summed) return std::move(summed).error();
+  if (Status summed = detail::prefix_sum(context, at); !summed) return std::move(summed).error();
   Result<std::vector<T>> values = unset_slots<T>(at[region.n], context);
   if (!values) return std::move(values).error();
   const std::span<T> all(*values);

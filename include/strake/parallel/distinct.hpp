@@ -33,7 +33,7 @@ struct Distinct {
 
 namespace detail {
 
-/// Items are told apart in so many lots, each by one worker, whatever the team.
+/// Items are distinguished in so many lots, each by one worker, whatever the team.
 inline constexpr std::size_t kDistinctLots = 64;
 /// Items that a worker takes at once, at most. Between 1024 and 16'384 no difference can be seen
 /// (decision 0073).
@@ -62,7 +62,7 @@ using HashLots = Dealt<std::uint32_t, kDistinctLots>;
 ///     ... work on pair[kinds->first[k]], use it for all i with kinds->of[i] == k ...
 ///
 /// `hash(i)` is any 64-bit hash that spreads its highest and its lowest bits, see mixed(); it
-/// decides who is compared with whom, never the answer. `same(i, j)` is asked for items of equal
+/// decides who is compared with whom, never the answer. `same(i, j)` is called for items of equal
 /// hashes only. Both are called concurrently, by one worker for an item: hashes that are dear to
 /// make are made before, by pieces. All regions have the one name. Errors as in for_each: that of
 /// the lowest item whose hash cannot be made, or else of the lowest that cannot be compared.

@@ -63,7 +63,7 @@ Status estimate(const Context& context, const Region& region, Put&& put) {
 /// first. A region that one of those opens finds the team busy and runs alone. `cost(i)` is an
 /// estimate in any unit; `least` is a cost, in the same unit, that is worth a team. Region::order
 /// must be empty. Results go to slots; values by key are made by Precomputed::fill_by_weight. Costs
-/// are asked for by all workers.
+/// are requested by all workers.
 ///
 /// 1. Which items are apart depends on the size of the team, and must not show in a result: what an
 ///    item does may depend on its own size only.

@@ -26,7 +26,7 @@ Result<std::vector<std::size_t>> row_starts(const Context& context, std::string_
     Status status = status_of(region, r, [&] { (*start)[r + 1] = length(r); });
     if (!status) return std::move(status).error();
   }
-  if (Status summed = sum_up(context, *start); !summed) return std::move(summed).error();
+  if (Status summed = prefix_sum(context, *start); !summed) return std::move(summed).error();
   return start;
 }
 

@@ -12,8 +12,8 @@ namespace strake::parallel {
 /// at most 4/3 of the best possible time for any estimate that is right).
 ///
 /// `costs` holds one estimate per block of the region (per item when grain is 1), in any unit;
-/// even one that is off by a factor of two is worth it. They are told apart as floats are; NaN and
-/// what is below zero count as no cost at all. Fewer than 2^32; 8 ns for each.
+/// even one that is off by a factor of two is worth it. They are distinguished as floats are; NaN
+/// and what is below zero count as no cost at all. Fewer than 2^32; 8 ns for each.
 [[nodiscard]] std::vector<std::uint32_t> longest_first(std::span<const double> costs);
 
 /// The same with estimate(i) for i in [0, n).

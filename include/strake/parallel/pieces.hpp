@@ -26,8 +26,8 @@ struct Piece {
 /// counts as 1.
 template <std::unsigned_integral Number, class Visit>
 void cut_evenly(Number count, Number limit, Visit&& visit) {
-  const Number most = std::max<Number>(limit, 1);
-  const Number runs = count / most + (count % most != 0 ? 1 : 0);
+  const Number size = std::max<Number>(limit, 1);
+  const Number runs = count / size + (count % size != 0 ? 1 : 0);
   for (Number k = 0, first = 0; k < runs; ++k) {
     const Number last = first + count / runs + (k < count % runs ? 1 : 0);
     visit(first, last);

@@ -145,7 +145,7 @@ class Precomputed {
   Status add(const Context& context, std::string_view region, std::span<const std::uint32_t> wanted,
              Fill&& fill) {
     try {
-      // No memory for tables that nobody asks.
+      // No memory for tables that nobody reads.
       if (wanted.empty()) return {};
       made_.resize(keys_, nullptr);
       std::vector<std::uint32_t> missing;

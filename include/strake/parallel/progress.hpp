@@ -39,7 +39,7 @@ class Progress {
   std::atomic<std::uint64_t> done_{0};
 };
 
-/// Claims a phase for as long as it lives, if it is free and somebody asked for progress (not
+/// Claims a phase for as long as it lives, if it is free and somebody requested progress (not
 /// null). Where there is no memory for its name it is not told of.
 class ProgressPhase {
  public:

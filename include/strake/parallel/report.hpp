@@ -62,7 +62,7 @@ class RunReport {
   std::vector<StageReport> stages_;
 };
 
-/// Measures one stage from construction to destruction; null: nobody asked.
+/// Measures one stage from construction to destruction; null: nobody needs it.
 class StageTimer {
  public:
   StageTimer(RunReport* report, std::string_view stage);

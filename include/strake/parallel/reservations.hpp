@@ -46,7 +46,7 @@ namespace detail {
 ///         [&](std::size_t i) { pair(edges[i].left, edges[i].right); });
 ///
 /// Items pass in rounds, many at a time. First each names the places, of [0, places), that it will
-/// read or write: the lowest item that asks for a place gets it. Then those that got all of theirs
+/// read or write: the lowest item that requests a place gets it. Then those that got all of theirs
 /// act, side by side; the others try again in the next round, before items that come after them.
 ///
 /// - claim(i, claims) changes nothing and may read everything. It returns void or bool: false says

@@ -107,7 +107,7 @@ namespace detail {
 
 /// Makes offsets of lengths, by all workers: lengths[i + 1], the length of list i, becomes where it
 /// ends; lengths[0] is 0. Errors: more values in all than can be counted; as in for_each.
-[[nodiscard]] Status sum_up(const Context& context, std::span<std::size_t> lengths);
+[[nodiscard]] Status prefix_sum(const Context& context, std::span<std::size_t> lengths);
 
 }  // namespace detail
 }  // namespace strake::parallel

@@ -30,9 +30,9 @@ struct Listing {
 };
 
 /// Returns the first rows of a list: files, tests and views by name, shapes by how many bodies have
-/// them, revisions and runs the latest first, clashes the deepest first. `most` 0: all rows.
+/// them, revisions and runs the latest first, clashes the deepest first. `limit` 0: all rows.
 /// Errors: input for a damaged project; cancelled.
-[[nodiscard]] Result<Listing> list(Project& project, ListKind kind, std::uint64_t most,
+[[nodiscard]] Result<Listing> list(Project& project, ListKind kind, std::uint64_t limit,
                                    const parallel::Context& context);
 
 }  // namespace strake::project

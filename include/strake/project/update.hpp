@@ -76,11 +76,11 @@ struct Changes {
 };
 
 /// Tells which file of one model is which of the other: by label, then by what is in them
-/// (report::match_files()); what `asked` says, as OLD=NEW, comes first. Errors: usage, for what is
-/// asked; cancelled.
+/// (report::match_files()); what `given_pairs` says, as OLD=NEW, comes first. Errors: usage, for
+/// what is asked; cancelled.
 [[nodiscard]] Result<report::FileMatches> match_files(const model::Model& then,
                                                       const model::Model& now,
-                                                      std::span<const std::string> asked,
+                                                      std::span<const std::string> given_pairs,
                                                       const parallel::Context& context);
 
 /// Compares two finished models by content, of which hashes of 128 bits are taken: nothing is
@@ -112,7 +112,7 @@ struct ChangesTable {
 /// Returns what changed for a terminal: files, counts, and the first objects of each kind.
 [[nodiscard]] std::string changes_text(const Changes& changes, const ChangesTable& table);
 
-/// Who asks for a change of the model, and when.
+/// Who requests a change of the model, and when.
 struct RevisionNote {
   std::string when;  ///< UTC as ISO 8601, "2026-05-04T22:00:00Z"
 };
@@ -151,11 +151,11 @@ struct Update {
 
 /// What update() reads.
 struct UpdateRequest {
-  /// Files that take the place of those that they match: by path, as `asked`, by name, or by what
-  /// is in them. What is not said of one is as it was said of the file before. None: every file of
-  /// the project, where it lies.
+  /// Files that take the place of those that they match: by path, as `given_pairs`, by name, or by
+  /// what is in them. What is not said of one is as it was said of the file before. None: every
+  /// file of the project, where it lies.
   std::vector<io::FileToRead> files;
-  std::vector<std::string> asked;  ///< OLD=NEW
+  std::vector<std::string> given_pairs;  ///< OLD=NEW
 };
 
 /// Reads again the files whose bytes changed, or that are read with other options or from another

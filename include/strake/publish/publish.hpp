@@ -18,7 +18,7 @@
 ///     const Status status = publish::write_clashes(contents, "clashes.xlsx", context);
 namespace strake::publish {
 
-/// Writes clash results in the format that the name of the file asks for: .json, .csv, .xlsx, .xml,
+/// Writes clash results in the format that the name of the file requests: .json, .csv, .xlsx, .xml,
 /// .bcf, .svg, .glb, .html and others (docs/reading-results.md). What shows the model needs
 /// ClashContents::scene. The file is written whole or not at all. Errors: usage for a name that no
 /// format has; output; cancelled; out of memory.
@@ -26,7 +26,7 @@ namespace strake::publish {
                                    const std::filesystem::path& file,
                                    const parallel::Context& context = {});
 
-/// Writes a drawing in the format that the name of the file asks for: .svg, .pdf, .dxf, .json,
+/// Writes a drawing in the format that the name of the file requests: .svg, .pdf, .dxf, .json,
 /// .view or .html; the last shows the model where `scene` is given. Returns what of the drawing
 /// could not be written as it is. The file is written whole or not at all. Errors: as of
 /// write_clashes().

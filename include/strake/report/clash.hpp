@@ -67,9 +67,9 @@ void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
 
 /// How BCF is written: a topic for each group, or for each result where there are no groups.
 struct BcfForm {
-  bool version_3 = false;  ///< 3.0; otherwise 2.1, which most programs read
-  std::size_t most = 200;  ///< topics: the first of the groups, or the worst of the results
-  bool contacts = false;   ///< also results that are contacts; groups have those that they have
+  bool version_3 = false;        ///< 3.0; otherwise 2.1, which most programs read
+  std::size_t max_topics = 200;  ///< topics: the first of the groups, or the worst of the results
+  bool contacts = false;  ///< also results that are contacts; groups have those that they have
   /// When topics were made, as 2026-01-31T23:59:59Z; empty: when the newest model file says that it
   /// was written, or where none does 1970-01-01.
   std::string date = {};
@@ -89,7 +89,7 @@ enum class ModelShown : std::uint8_t {
 struct ClashContents {
   const clash::Findings& findings;
   const model::Model& model;
-  const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if asked for
+  const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if requested
   const RulesSource* rules = nullptr;         ///< the rules, if there were any
   /// What reading and placing the model noticed (model::Model::diagnostics, then
   /// model::Scene::diagnostics). Without it the result does not say what is missing.
@@ -147,8 +147,8 @@ struct ClashContents {
                                       const parallel::Context& context = {});
 
 /// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
-/// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log
-/// pairs have such pairs.
+/// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were requested to
+/// log pairs have such pairs.
 [[nodiscard]] Status write_pair_log(const ClashContents& contents, Sink sink,
                                     const parallel::Context& context = {});
 

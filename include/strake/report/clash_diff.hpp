@@ -19,7 +19,7 @@ struct DiffEntry {
   const DocumentResult* before = nullptr;  ///< null: not a result of the old run
   const DocumentResult* after = nullptr;   ///< null: not a result of the new run
   /// For a new clash: what else than the model may have made it one, if anything. For one that
-  /// cannot be told: why not.
+  /// cannot be known: why not.
   std::string why;
 
   [[nodiscard]] const DocumentResult& either() const { return after != nullptr ? *after : *before; }
@@ -71,11 +71,11 @@ struct ClashDiff {
 };
 
 /// Tells which file of one run is which of the other, by the ids that the results name, and by the
-/// places of results where there are only ids that are positions. What `asked` says, as OLD=NEW,
-/// comes first. Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
+/// places of results where there are only ids that are positions. What `given_pairs` says, as
+/// OLD=NEW, comes first. Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
 [[nodiscard]] Result<FileMatches> match_files(const ClashDocument& before,
                                               const ClashDocument& after,
-                                              std::span<const std::string> asked = {});
+                                              std::span<const std::string> given_pairs = {});
 
 /// Compares two runs. Tests of the two documents go together by name. A result of the old run that
 /// the new one does not have is `gone` only if the new run checked the pair: both objects are in

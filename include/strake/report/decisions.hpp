@@ -67,7 +67,7 @@ struct Decision {
   std::size_t line = 0;
   std::string assignee;  ///< who sees to it; of projects alone
   std::string at;        ///< when it was made, to the second, as 2026-01-31T23:59:59Z; likewise
-  /// All that people said, where a project was asked for it; `comment` is what holds now.
+  /// All that people said, where they were requested of a project; `comment` is what holds now.
   std::vector<DecisionComment> comments;
 };
 

@@ -81,20 +81,20 @@ struct FilePair {
 
 /// Matches the files of two runs.
 ///
-/// Pairs that are `asked` for come first, then files of equal labels. What is left goes by what is
+/// The `given_pairs` come first, then files of equal labels. What is left goes by what is
 /// in it. Two files are one, renamed, where more than half of the lasting ids of either that the
 /// results name are in the other: at least three of them, twenty where both have places and share
 /// none, or fewer with more than half of the places in common (where the old run is an excerpt, of
 /// what it has alone); where one of them has no lasting
 /// ids, places decide alone. Of several candidates one is taken only if the others have less than
-/// nine tenths of its ids in common, or, where ids do not tell, of its places; else none is, and
+/// nine tenths of its ids in common, or, where ids do not decide, of its places; else none is, and
 /// all are ambiguous. A file of which more than half of the ids, as many at least, are in a file of
 /// the other run and not in the counterpart of that one is a part of it.
 ///
-/// Errors: usage for a pair that is asked for and names a file that its run does not have, or one
+/// Errors: usage for a pair that is requested and names a file that its run does not have, or one
 /// that another pair names.
 [[nodiscard]] Result<FileMatches> match_files(const RunFiles& before, const RunFiles& after,
-                                              std::span<const FilePair> asked = {});
+                                              std::span<const FilePair> given_pairs = {});
 
 /// Reads pairs as they are written: OLD=NEW, where either label may have a '=' itself. Errors:
 /// usage.

@@ -100,10 +100,10 @@ struct ViewDiffOptions {
 };
 
 /// Tells which file of one drawing is which of the other, by the ids of what is drawn, and where
-/// they do not tell by the places of lines. What `asked` says, as OLD=NEW, comes first. Errors:
-/// usage, as of match_files() of RunFiles and parse_file_pairs().
+/// they do not decide by the places of lines. What `given_pairs` says, as OLD=NEW, comes first.
+/// Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
 [[nodiscard]] Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
-                                              std::span<const std::string> asked = {});
+                                              std::span<const std::string> given_pairs = {});
 
 /// Compares drawings place by place in the model. Where lines of both drawings lie on each other,
 /// classes that both have are the same however the lines are cut into pieces; of those that only

@@ -12,7 +12,7 @@
 /// Reads a drawing back from its neutral form, to be written again without the model it is of.
 namespace strake::report {
 
-/// A drawing, and as much of its model as writers ask for: objects with id, name and file.
+/// A drawing, and as much of its model as writers request: objects with id, name and file.
 struct ViewDrawing {
   drawing::NeutralDrawing drawing;
   model::Model model;

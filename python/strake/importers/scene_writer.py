@@ -23,7 +23,7 @@ from strake.importers.shapes import Color, Part, PreparedPart, PreparedShape, Sh
 
 Attributes = Mapping[str, Any]
 
-_MOST_BYTES = 2**32 - 1
+_MAX_BYTES = 2**32 - 1
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125
 # json.dumps would make an encoder for each of many short values.
@@ -285,8 +285,8 @@ class SceneWriter:
         length = text.tell()
         binary = size + padding
         total = 12 + 8 + length + (8 + binary if binary else 0)
-        if total > _MOST_BYTES:
-            raise SceneTooLarge(f"the scene has {total} bytes, and a GLB at most {_MOST_BYTES}")
+        if total > _MAX_BYTES:
+            raise SceneTooLarge(f"the scene has {total} bytes, and a GLB at most {_MAX_BYTES}")
         part = Path(self._folder.name) / "scene"
         with part.open("wb") as out:
             out.write(struct.pack("<4sII", b"glTF", 2, total))

@@ -21,15 +21,15 @@ class Outcome:
     status: int
     lines: list[dict[str, Any]]
     output: Path
-    said: str
+    stated: str
 
     @property
     def glb(self) -> Glb:
         """The scene."""
-        assert self.status == 0, (self.lines[-1:], self.said)
+        assert self.status == 0, (self.lines[-1:], self.stated)
         return Glb(self.output)
 
-    def told(self, severity: str) -> list[dict[str, Any]]:
+    def reported(self, severity: str) -> list[dict[str, Any]]:
         """Returns the diagnostics of a severity."""
         return [line for line in self.lines if line.get("severity") == severity]
 

@@ -107,7 +107,7 @@ def test_the_general_program_knows_importers_of_packages(tmp_path: Path, monkeyp
         assert json.loads(report.read_text().splitlines()[-1])["error"] == error
 
 
-def test_without_ifcopenshell_the_importer_says_how_to_get_it(tmp_path: Path) -> None:
+def test_without_ifcopenshell_the_importer_states_how_to_get_it(tmp_path: Path) -> None:
     (tmp_path / "a.ifc").write_text("x")
     program = "import sys; sys.modules['ifcopenshell'] = None; from strake.importers.ifc import main; sys.exit(main(sys.argv[1:]))"
     arguments = ["--input", str(tmp_path / "a.ifc"), "--output", str(tmp_path / "s.glb"), "--report", str(tmp_path / "r")]

@@ -117,7 +117,7 @@ def test_bodies_that_are_inside_out_are_turned() -> None:
     assert measures([left])[0] == pytest.approx((4000 * 2500 - 1000 * 1000) * 200, rel=1e-9)
 
 
-def test_what_cannot_be_told_for_sure_is_left_to_others() -> None:
+def test_what_cannot_be_decided_for_sure_is_left_to_others() -> None:
     opening = box((1000, -5, 500), (2000, 205, 1500))
     with pytest.raises(Unfit, match="not closed"):
         difference([Mesh(WALL.vertices, WALL.triangles[1:])], [opening])
@@ -289,7 +289,7 @@ def test_surface_models_are_cut_and_boxes_around_bodies_are_none(kind: str) -> N
     assert ours is not None and of_shape(ours)[0] == pytest.approx(990_000 * 200, rel=1e-6)
 
 
-def test_what_is_said_of_an_item_is_told_of_its_product(tmp_path: Path) -> None:
+def test_what_is_stated_of_an_item_is_reported_its_product(tmp_path: Path) -> None:
     model = IfcModel()
     wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
     model.void(wall, model.body(model.extrusion((100, 200, 0), (0, 0, 400)), model.extrusion((100, 200, 100), (500, 0, 400))))
@@ -299,7 +299,7 @@ def test_what_is_said_of_an_item_is_told_of_its_product(tmp_path: Path) -> None:
     ours = shapes(read, [wall.id(), whole.id()], CUT)
     assert ours[wall.id()][0].fault and not ours[whole.id()][0].fault
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert "Non-positive extrusion height" in str(outcome.told("warning"))
+    assert "Non-positive extrusion height" in str(outcome.reported("warning"))
 
 
 def test_what_several_results_cut_is_left_to_others() -> None:
@@ -396,7 +396,7 @@ def test_what_openings_take_away_aslant_is_cut_away(tmp_path: Path) -> None:
         entity.Representation.Representations[0].Items[0].Position = model.axes(x=(math.cos(0.3), math.sin(0.3), 0))
     assert "aslant" in shapes(Model(model.file), [wall.id()], CUT)[wall.id()][0].fault
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]
+    assert [line["code"] for line in outcome.reported("warning")] == ["ifc-cut-away"]
 
 
 def test_a_cut_that_hangs_is_made_by_open_cascade_with_all_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -419,7 +419,7 @@ def test_a_cut_that_hangs_is_made_by_open_cascade_with_all_beside_it(tmp_path: P
     assert [made.remarks[wall.id()] for wall in walls] == [[(CUT, "no answer for 2 s")]] * 3
 
 
-def test_without_manifold3d_open_cascade_cuts_and_a_note_says_so(tmp_path: Path) -> None:
+def test_without_manifold3d_open_cascade_cuts_and_a_note_reports_it(tmp_path: Path) -> None:
     model = IfcModel()
     wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
     model.void(wall, model.body(model.extrusion((1000, 400, 1000), (0, 0, 900))))
@@ -430,7 +430,7 @@ def test_without_manifold3d_open_cascade_cuts_and_a_note_says_so(tmp_path: Path)
     subprocess.run([sys.executable, "-c", code, *arguments], check=True, timeout=300)
     assert "1 products with openings or half-spaces" in report.read_text() and "pip install 'strake[ifc]'" in report.read_text()
     outcome = convert(path)
-    assert "ifc-slow-cuts" not in [line["code"] for line in outcome.told("note")]
+    assert "ifc-slow-cuts" not in [line["code"] for line in outcome.reported("note")]
     assert any("manifold3d" in name for name in outcome.lines[-1]["depends_on"])
 
 

@@ -39,8 +39,8 @@ def test_a_wall_with_a_window_on_a_storey(tmp_path: Path, schema: str) -> None:
     attributes = glb.attributes(wall.GlobalId)
     assert attributes["class"] == "IfcWall" and attributes["Tag"] == "t"
     assert attributes["Pset_WallCommon"] == {"FireRating": "F60", "IsExternal": True}
-    assert outcome.told("note")[0]["message"].endswith("1 openings, 1 spaces")
-    assert outcome.told("skipped") == [] and outcome.told("warning") == []
+    assert outcome.reported("note")[0]["message"].endswith("1 openings, 1 spaces")
+    assert outcome.reported("skipped") == [] and outcome.reported("warning") == []
     storeys = [node["extras"]["attributes"] for node in glb.nodes if node["name"] == "Level 2"]
     assert storeys == [{"Storey": "Level 2", "StoreyId": storey.GlobalId, "StoreyElevation": "3000 mm"}]
     assert (outcome.lines[-1]["format"], outcome.lines[-1]["unit"]) == (schema, "mm")
@@ -104,7 +104,7 @@ def test_large_coordinates_and_places_on_the_map(tmp_path: Path) -> None:
     outcome = convert(model.write(tmp_path / "a.ifc"))
     low, _ = outcome.glb.box(far.GlobalId)
     assert low == pytest.approx([462_999_973.004, 5_428_000_306.007, 0], abs=1e-3)
-    assert "ifc-map-conversion" in [line["code"] for line in outcome.told("note")]
+    assert "ifc-map-conversion" in [line["code"] for line in outcome.reported("note")]
 
 
 def test_curves_stay_within_a_millimetre(tmp_path: Path) -> None:
@@ -130,7 +130,7 @@ def test_faulty_and_impossible_bodies_cost_only_themselves(tmp_path: Path) -> No
     path.write_text(path.read_text().replace("12345.5", "1E300"))
     outcome = convert(path)
     assert good.GlobalId in outcome.glb.ids
-    skipped = {line["object"]: line["message"] for line in outcome.told("skipped")}
+    skipped = {line["object"]: line["message"] for line in outcome.reported("skipped")}
     assert set(skipped) == {vast.GlobalId, flat.GlobalId}
     assert "IfcBuildingElementProxy 'flat'" in skipped[flat.GlobalId]
 
@@ -148,7 +148,7 @@ def test_mapped_items_of_nothing_cost_only_their_product(tmp_path: Path) -> None
     file.write_text(text)
     outcome = convert(file)
     assert outcome.glb.ids == [seats[1].GlobalId]
-    assert "1 products have a shape that is no body" in outcome.told("note")[-1]["message"]
+    assert "1 products have a shape that is no body" in outcome.reported("note")[-1]["message"]
 
 
 # Two triangles that meet in a point, as one outline, below and above.
@@ -164,7 +164,7 @@ def test_outlines_that_touch_themselves_lose_nothing_by_any_product_that_has_the
         for i in range(3)
     ]
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert outcome.told("skipped") == outcome.told("warning") == []
+    assert outcome.reported("skipped") == outcome.reported("warning") == []
     assert [outcome.glb.volume(one.GlobalId) for one in wedges] == [pytest.approx(2 * 20 * 10 * 50, rel=1e-6)] * 3
     assert len({outcome.glb.node(one.GlobalId)["mesh"] for one in wedges}) == 1
 
@@ -185,7 +185,7 @@ def test_double_ids_become_unique_in_a_lasting_way(tmp_path: Path) -> None:
     outcome = convert(model.write(tmp_path / "a.ifc"))
     assert outcome.glb.ids == ["1" * 22, "1" * 22 + "~2", "1" * 22 + "~3"]
     assert [outcome.glb.node(i)["name"] for i in outcome.glb.ids] == ["a", "b", "c"]
-    assert [line["code"] for line in outcome.told("warning")] == ["ifc-double-id"] * 2
+    assert [line["code"] for line in outcome.reported("warning")] == ["ifc-double-id"] * 2
 
 
 def test_placements_that_go_round_in_circles(tmp_path: Path) -> None:
@@ -196,7 +196,7 @@ def test_placements_that_go_round_in_circles(tmp_path: Path) -> None:
     good = model.product("IfcColumn", "good", model.body(model.extrusion((10, 10, 11))))
     outcome = convert(model.write(tmp_path / "a.ifc"))
     assert outcome.glb.ids == [good.GlobalId]
-    assert "placed relative to itself" in outcome.told("skipped")[0]["message"]
+    assert "placed relative to itself" in outcome.reported("skipped")[0]["message"]
 
 
 def test_assemblies_are_groups_and_parts_of_each_other_end(tmp_path: Path) -> None:
@@ -212,8 +212,8 @@ def test_assemblies_are_groups_and_parts_of_each_other_end(tmp_path: Path) -> No
         make("IfcRelAggregates", GlobalId=model.guid(), RelatingObject=above, RelatedObjects=[below])
     outcome = convert(model.write(tmp_path / "a.ifc"))
     assert outcome.glb.path(flight.GlobalId) == ["site", "building", "EG", "stair"]
-    assert {line["object"] for line in outcome.told("skipped")} == {one.GlobalId, two.GlobalId}
-    assert all("part of itself" in line["message"] for line in outcome.told("skipped"))
+    assert {line["object"] for line in outcome.reported("skipped")} == {one.GlobalId, two.GlobalId}
+    assert all("part of itself" in line["message"] for line in outcome.reported("skipped"))
 
 
 def test_material_type_system_and_own_values_before_those_of_the_type(tmp_path: Path) -> None:
@@ -246,8 +246,8 @@ def test_bytes_are_the_same_for_any_number_of_threads(tmp_path: Path) -> None:
     outcomes = [convert(path, threads) for threads in (1, 2, 5)]
     assert len({outcome.output.read_bytes() for outcome in outcomes}) == 1
     assert len(outcomes[0].glb.ids) == 60
-    told = [[line for line in outcome.lines if "progress" not in line] for outcome in outcomes]
-    assert told[0] == told[1] == told[2]
+    reported = [[line for line in outcome.lines if "progress" not in line] for outcome in outcomes]
+    assert reported[0] == reported[1] == reported[2]
 
 
 def test_a_box_around_a_product_is_no_body(tmp_path: Path) -> None:
@@ -259,8 +259,8 @@ def test_a_box_around_a_product_is_no_body(tmp_path: Path) -> None:
     assert "no product with a body" in convert(model.write(tmp_path / "a.ifc")).lines[-1]["error"]
     other = model.product("IfcWall", "o", model.body(model.extrusion((100, 100, 100))))
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert outcome.glb.ids == [other.GlobalId] and outcome.told("skipped") == []
-    assert [line["code"] for line in outcome.told("note")][-1] == "ifc-no-shape-stated"
+    assert outcome.glb.ids == [other.GlobalId] and outcome.reported("skipped") == []
+    assert [line["code"] for line in outcome.reported("note")][-1] == "ifc-no-shape-stated"
 
 
 def test_walls_of_which_openings_leave_nothing(tmp_path: Path) -> None:
@@ -269,5 +269,5 @@ def test_walls_of_which_openings_leave_nothing(tmp_path: Path) -> None:
     model.void(wall, model.body(model.extrusion((2000, 200, 2000), (0, 0, -500))))
     other = model.product("IfcWall", "o", model.body(model.extrusion((100, 100, 100))))
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert outcome.glb.ids == [other.GlobalId] and outcome.told("skipped") == []
-    assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]
+    assert outcome.glb.ids == [other.GlobalId] and outcome.reported("skipped") == []
+    assert [line["code"] for line in outcome.reported("warning")] == ["ifc-cut-away"]

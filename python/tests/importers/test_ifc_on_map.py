@@ -56,7 +56,7 @@ def corners(model: strake.Model, i: int = 0) -> Any:
     return model.boxes[i].round(3).tolist()
 
 
-def test_coordinates_are_local_unless_those_of_the_map_are_asked_for(tmp_path: Path) -> None:
+def test_coordinates_are_local_unless_those_of_the_map_are_requested(tmp_path: Path) -> None:
     file = column(tmp_path / "a.ifc", EAST, NORTH, UP, 0.0, 1.0, 0.001)
     assert corners(strake.load(file)) == [[850, 1850, 0], [1150, 2150, 3000]]
     # A quarter turn: x of the project is north of the map, y is west.
@@ -78,7 +78,7 @@ def test_placements_are_turned_in_doubles(tmp_path: Path, angle: float) -> None:
     np.testing.assert_allclose(placed.mesh(0)[0], expected, rtol=0, atol=2e-6)
 
 
-def test_a_scale_of_one_between_metres_and_millimetres_is_told(tmp_path: Path) -> None:
+def test_a_scale_of_one_between_metres_and_millimetres_is_reported(tmp_path: Path) -> None:
     file = column(tmp_path / "a.ifc", EAST, NORTH, UP, 1.0, 0.0, 1.0)
     placed = strake.load(file, georeference=True)
     assert corners(placed) == [[463001350, 5428002100, 110000], [463001650, 5428002400, 113000]]
@@ -93,22 +93,22 @@ def test_units_of_map_and_project(tmp_path: Path) -> None:
     assert corners(strake.load(own, georeference=True))[0] == [463000500 + 850, 5428000250 + 1850, 110000]
 
 
-def test_files_that_do_not_meet_are_told_of(tmp_path: Path) -> None:
+def test_files_that_do_not_meet_are_reported(tmp_path: Path) -> None:
     one = column(tmp_path / "a.ifc", EAST, NORTH, UP, 1.0, 0.0, 0.001)
     two = column(tmp_path / "b.ifc", EAST + 5, NORTH, UP, 1.0, 0.0, 0.001)
     other = column(tmp_path / "c.ifc", EAST, NORTH, UP, 1.0, 0.0, 0.001, crs="EPSG:28992")
     none = column(tmp_path / "d.ifc")
 
-    def told(*files: Path, georeference: bool = False) -> list[tuple[str, str, str]]:
+    def reported(*files: Path, georeference: bool = False) -> list[tuple[str, str, str]]:
         found = strake.load(files, georeference=georeference).diagnostics
         return [(d.code, d.severity, Path(d.where).name) for d in found if d.code.startswith("map-")]
 
-    assert told(one, two) == told(two, one) == [("map-place-differs", "note", "b.ifc")]
-    assert told(one, two, georeference=True) == []
+    assert reported(one, two) == reported(two, one) == [("map-place-differs", "note", "b.ifc")]
+    assert reported(one, two, georeference=True) == []
     assert len(strake.clash(strake.load([one, two]))) == 1
     assert len(strake.clash(strake.load([one, two], georeference=True))) == 0
-    assert told(one, other) == [] and told(one, other, georeference=True) == [("map-other", "warning", "c.ifc")]
-    assert told(one, none) == [] and told(one, none, georeference=True) == [("map-place-unknown", "warning", "d.ifc")]
+    assert reported(one, other) == [] and reported(one, other, georeference=True) == [("map-other", "warning", "c.ifc")]
+    assert reported(one, none) == [] and reported(one, none, georeference=True) == [("map-place-unknown", "warning", "d.ifc")]
 
 
 @pytest.mark.parametrize("numbers", [(EAST, NORTH, UP, 0.0, 0.0, 0.001), (EAST, NORTH, UP, 1.0, 0.0, -1.0)])
@@ -138,7 +138,7 @@ def test_how_far_triangles_are_from_their_surfaces(tmp_path: Path) -> None:
     assert sags == [0, 1, 1, None, 0, 1]
 
 
-def test_the_sag_that_is_asked_for_is_kept_and_stated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_sag_that_is_requested_is_kept_and_stated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     model = IfcModel()
     model.product("IfcWall", "flat", model.body(model.extrusion((4000, 200, 2500))))
     model.product("IfcTank", "round", model.body(model.cylinder(500, 100)), (0, 9000, 0))

@@ -49,7 +49,7 @@ def test_duplex_is_whole(tmp_path: Path) -> None:
     products = expected(name)
     assert len(products) == 215
     assert sorted(outcome.glb.ids) == sorted(p.GlobalId for p in products)
-    assert outcome.told("skipped") == []
+    assert outcome.reported("skipped") == []
     for product in products:
         assert outcome.glb.node(product.GlobalId)["name"] == product.Name
         assert outcome.glb.attributes(product.GlobalId)["class"] == product.is_a()
@@ -70,7 +70,7 @@ def test_duplex_is_whole(tmp_path: Path) -> None:
 )
 def test_disciplines_of_one_building_lie_in_each_other(tmp_path: Path, first: str, second: str) -> None:
     outcomes = [converted(name, tmp_path) for name in (first, second)]
-    assert all(outcome.told("skipped") == [] for outcome in outcomes)
+    assert all(outcome.reported("skipped") == [] for outcome in outcomes)
     assert overlap(outcomes[0].glb, outcomes[1].glb)
 
 
@@ -79,7 +79,7 @@ def test_names_and_double_ids(tmp_path: Path) -> None:
     assert any(ord(letter) > 127 for node in unicode.nodes for letter in str(node))
     doubles = converted("opensourceBIM_TestFiles/doubleguids.ifc", tmp_path)
     assert len(doubles.glb.ids) == len(set(doubles.glb.ids))
-    assert any(line["code"] == "ifc-double-id" for line in doubles.told("warning"))
+    assert any(line["code"] == "ifc-double-id" for line in doubles.reported("warning"))
 
 
 def test_the_pair_that_a_real_bcf_names_is_found(tmp_path: Path) -> None:

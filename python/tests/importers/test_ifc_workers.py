@@ -33,7 +33,7 @@ def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
 
 
 @pytest.mark.parametrize("count", [1, 3])
-def test_crashes_and_hangs_are_told_with_what_is_missing(count: int) -> None:
+def test_crashes_and_hangs_are_reported_with_what_is_missing(count: int) -> None:
     with Workers(None, count, silent_s=1, convert=fake) as workers:
         for first in range(0, 30, 5):
             workers.add(Chunk(tuple(range(first, first + 5)), "k"))
@@ -55,7 +55,7 @@ def test_a_worker_that_only_waits_has_longer_and_no_end() -> None:
 
 
 def test_each_hang_halves_the_limit_but_those_of_cuts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("strake.importers.ifc.workers.LEAST_SILENT_S", 0.25)
+    monkeypatch.setattr("strake.importers.ifc.workers.MIN_SILENT_S", 0.25)
     with Workers(None, 1, silent_s=0.5, convert=fake) as workers:
         for kernel in (CUT, CUT, "k", "k"):
             workers.add(Chunk((HANGS,), kernel))

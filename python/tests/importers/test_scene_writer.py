@@ -34,7 +34,7 @@ def moved(x: float, y: float, z: float) -> np.ndarray:
     return matrix
 
 
-def test_shapes_say_how_far_they_are_from_their_surfaces(tmp_path: Path) -> None:
+def test_shapes_state_how_far_they_are_from_their_surfaces(tmp_path: Path) -> None:
     triangle = Part(np.eye(3), [[0, 1, 2]])
     with SceneWriter(tmp_path / "s.glb", sag_mm=0.5) as scene:
         for name, sag_mm in (("a", None), ("b", 0.0), ("c", 0.25), ("d", 0.25)):

@@ -118,7 +118,7 @@ def color_of(outcome: Outcome, object_id: str) -> list[float]:
 def test_assemblies_instances_and_colours_of_occurrences(tmp_path: Path) -> None:
     outcome = rig(tmp_path / "rig.step")
     glb = outcome.glb
-    assert outcome.told("skipped") == outcome.told("warning") == []
+    assert outcome.reported("skipped") == outcome.reported("warning") == []
     assert sorted(glb.ids) == ["Rig/Plate", "Rig/first/left", "Rig/first/right", "Rig/second/left", "Rig/second/right"]
     assert glb.path("Rig/second/left") == ["Rig", "second"]
     assert glb.attributes("Rig/second/left") == {"Product": "Bolt", "Instance": "left"}
@@ -139,7 +139,7 @@ def test_curved_solids_are_closed(tmp_path: Path, kind: str, sizes: tuple[float,
     draft = Draft()
     draft.part(solid(kind, *sizes), kind)
     outcome = convert(draft.write(tmp_path / "a.step"), module=STEP)
-    assert outcome.told("warning") == []
+    assert outcome.reported("warning") == []
     assert outcome.glb.volume(kind) == pytest.approx(volume, rel=0.01)
 
 
@@ -228,7 +228,7 @@ def test_triangles_of_ap242_are_read(tmp_path: Path, kind: str) -> None:
     file = write_with_triangles(draft, tmp_path / "rig.step")
     assert "TRIANGULATED_" in file.read_text()
     outcome = convert(file, module=STEP)
-    assert outcome.told("warning") == outcome.told("skipped") == []
+    assert outcome.reported("warning") == outcome.reported("skipped") == []
     assert outcome.lines[-1]["format"] == "STEP AP242"
     assert sorted(outcome.glb.ids) == ["Rig/Plate", "Rig/left", "Rig/right"]
     assert outcome.glb.volume("Rig/left") == pytest.approx(6000, rel=1e-6)
@@ -263,7 +263,7 @@ def loose_faces(folder: Path, names: list[str]) -> Outcome:
 
 def test_loose_triangles_are_an_object_for_each_thing_that_hangs_together(tmp_path: Path) -> None:
     outcome = loose_faces(tmp_path, [""] * 12)
-    assert outcome.told("warning") == outcome.told("skipped") == []
+    assert outcome.reported("warning") == outcome.reported("skipped") == []
     assert sorted(outcome.glb.ids) == ["Hull/1", "Hull/2"]
     assert [outcome.glb.volume(name) for name in ("Hull/1", "Hull/2")] == [pytest.approx(6000, rel=1e-6)] * 2
     assert outcome.glb.box("Hull/2")[0] == pytest.approx([100, 0, 0])
@@ -287,7 +287,7 @@ def test_triangles_beside_surfaces_are_not_taken_for_them(tmp_path: Path) -> Non
     file = write_with_triangles(draft, tmp_path / "ball.step")
     assert "TESSELLATED_SOLID" in file.read_text() and "MANIFOLD_SOLID_BREP" in file.read_text()
     outcome = convert(file, module=STEP)
-    assert outcome.told("warning") == [] and outcome.glb.ids == ["Ball"]
+    assert outcome.reported("warning") == [] and outcome.glb.ids == ["Ball"]
     assert outcome.glb.volume("Ball") == pytest.approx(4 / 3 * math.pi * 8000, rel=0.01)
 
 
@@ -319,7 +319,7 @@ def test_a_real_assembly() -> None:
     outcome = convert_in_place(file)
     glb = outcome.glb
     assert len(glb.ids) == 18 and len(glb.json["meshes"]) == 5
-    assert outcome.told("skipped") == outcome.told("warning") == []
+    assert outcome.reported("skipped") == outcome.reported("warning") == []
 
 
 def convert_in_place(file: Path) -> Outcome:

@@ -17,7 +17,7 @@
 namespace strake::bcf {
 namespace {
 
-constexpr std::size_t kMostOfFile = std::size_t{16} << 20U, kMostOfAll = std::size_t{512} << 20U;
+constexpr std::size_t kMaxOfFile = std::size_t{16} << 20U, kMaxOfAll = std::size_t{512} << 20U;
 constexpr std::string_view kMarkup = "/markup.bcf", kXmlBlanks = " \t\r\n";
 
 /// Reads dates of a topic, and tells of those that are none.
@@ -130,7 +130,7 @@ class BcfReader {
     if (entry == zip_.entries().end())
       return Error{ErrorCode::input, "there is no bcf.version in it", name_,
                    "a BCF file is a zip archive with this file"};
-    const Result<std::string> text = zip_.read(*entry, kMostOfFile);
+    const Result<std::string> text = zip_.read(*entry, kMaxOfFile);
     if (!text) return text.error();
     pugi::xml_document document;
     if (const Status status = read_xml(document, *text, name_ + ", bcf.version"); !status)
@@ -145,8 +145,8 @@ class BcfReader {
   /// Takes a topic; one that is damaged is told about, and keeps no other from being read.
   Status take(const ZipReader::Entry& entry) {
     const std::string where = name_ + ", " + printable(entry.name);
-    const Result<std::string> text = zip_.read(entry, kMostOfFile);
-    if (zip_.unpacked() > kMostOfAll)
+    const Result<std::string> text = zip_.read(entry, kMaxOfFile);
+    if (zip_.unpacked() > kMaxOfAll)
       return Error{ErrorCode::input, "its topics unpack to more than 512 MiB", name_,
                    "split it into several"};
     if (!text) return leave_out(text.error());

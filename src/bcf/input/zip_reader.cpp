@@ -11,7 +11,7 @@
 namespace strake::bcf {
 namespace {
 
-constexpr zip_int64_t kMostListedEntries = 200'000;
+constexpr zip_int64_t kMaxListedEntries = 200'000;
 constexpr std::size_t kPiece = std::size_t{1} << 16U;
 
 struct EntryCloser {
@@ -39,7 +39,7 @@ Result<ZipReader> ZipReader::open(const std::filesystem::path& file) {
 
 Status ZipReader::list() {
   const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
-  if (count > kMostListedEntries)
+  if (count > kMaxListedEntries)
     return Error{ErrorCode::input, "the archive has more than 200000 entries", name_,
                  "split it into several"};
   for (zip_int64_t i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ Status ZipReader::list() {
   return {};
 }
 
-Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
+Result<std::string> ZipReader::read(const Entry& entry, std::size_t limit) {
   const std::unique_ptr<zip_file_t, EntryCloser> file(
       zip_fopen_index(archive_.get(), entry.index, 0));
   if (!file) {
@@ -73,7 +73,7 @@ Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
     if (got < 0) return fault(entry, "the file is damaged");
     bytes.resize(had + static_cast<std::size_t>(got));
     unpacked_ += static_cast<std::uint64_t>(got);
-    if (bytes.size() > most) return fault(entry, "the file unpacks to more than it may");
+    if (bytes.size() > limit) return fault(entry, "the file unpacks to more than it may");
     if (got == 0) return bytes;
   }
 }

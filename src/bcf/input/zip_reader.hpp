@@ -31,8 +31,8 @@ class ZipReader {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
   /// Returns the bytes of a file. Errors: input where it is encrypted, damaged, packed by a method
-  /// that is not known, or unpacks to more than `most` bytes.
-  [[nodiscard]] Result<std::string> read(const Entry& entry, std::size_t most);
+  /// that is not known, or unpacks to more than `limit` bytes.
+  [[nodiscard]] Result<std::string> read(const Entry& entry, std::size_t limit);
 
   /// How many bytes all that was read came to, that of files which were refused as well.
   [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }

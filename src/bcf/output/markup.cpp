@@ -55,7 +55,7 @@ class MarkupWriter {
     for (const TopicComment& comment : facts_.comments) {
       xml_.begin("Comment").attribute("Guid", comment.guid);
       xml_.leaf("Date", comment.date).leaf("Author", comment.author);
-      // The schema of 2.1 asks for the element, that of 3.0 for a text in it.
+      // The schema of 2.1 requests the element, that of 3.0 for a text in it.
       if (form_.version_3)
         xml_.leaf_if("Comment", comment.text);
       else

@@ -35,7 +35,7 @@ Sides sides_of(const report::ClashContents& contents, const PlannedTopic& topic)
   Sides sides;
   for (const clash::ResultRef& result : topic.results) {
     const clash::Pair& pair = pair_of(contents, result);
-    if (sides.size() + 2 > kMostComponents) break;
+    if (sides.size() + 2 > kMaxComponents) break;
     const bool swapped = sides.b.contains(pair.a) || sides.a.contains(pair.b);
     const model::ObjectId first = swapped ? pair.b : pair.a, second = swapped ? pair.a : pair.b;
     if (!sides.b.contains(first)) sides.a.insert(first);
@@ -62,7 +62,7 @@ class ViewpointWriter {
     xml_.attribute("Guid", guid);
   }
 
-  std::string write(const Sides& sides, const pictures::ClashViewpoint& seen) {
+  std::string write(const Sides& sides, const pictures::ClashViewpoint& viewpoint) {
     xml_.begin("Components");
     selection(sides);
     xml_.begin("Visibility").attribute("DefaultVisibility", "true").end();
@@ -70,10 +70,10 @@ class ViewpointWriter {
     color(pictures::kColourOfA, sides.a);
     color(pictures::kColourOfB, sides.b);
     xml_.end().end();
-    camera(seen);
-    if (!seen.clipping_planes.empty()) {
+    camera(viewpoint);
+    if (!viewpoint.clipping_planes.empty()) {
       xml_.begin("ClippingPlanes");
-      for (const pictures::ClippingPlane& plane : seen.clipping_planes)
+      for (const pictures::ClippingPlane& plane : viewpoint.clipping_planes)
         xml_.begin("ClippingPlane")
             .vector("Location", plane.point_mm, kMmPerMetre)
             .vector("Direction", plane.normal, 1)
@@ -111,15 +111,16 @@ class ViewpointWriter {
     xml_.end();
   }
 
-  /// Version 2.1 asks for 45 to 60 degrees. On the line of sight the eye may stand where the same
+  /// Version 2.1 requests 45 to 60 degrees. On the line of sight the eye may stand where the same
   /// height is seen by such an angle: nothing new comes before what was seen.
-  void camera(const pictures::ClashViewpoint& seen) {
-    const double away_mm = seen.half_height_mm / kTangentOfHalf;
-    const geometry::Vec3d eye_mm = seen.target_mm - seen.direction * away_mm;
+  void camera(const pictures::ClashViewpoint& viewpoint) {
+    const double away_mm = viewpoint.half_height_mm / kTangentOfHalf;
+    const geometry::Vec3d eye_mm = viewpoint.target_mm - viewpoint.direction * away_mm;
     xml_.begin("PerspectiveCamera").vector("CameraViewPoint", eye_mm, kMmPerMetre);
-    xml_.vector("CameraDirection", seen.direction, 1).vector("CameraUpVector", seen.up, 1);
+    xml_.vector("CameraDirection", viewpoint.direction, 1)
+        .vector("CameraUpVector", viewpoint.up, 1);
     xml_.leaf("FieldOfView", kFieldOfView);
-    if (contents_.bcf.version_3) xml_.leaf("AspectRatio", shortest(seen.aspect));
+    if (contents_.bcf.version_3) xml_.leaf("AspectRatio", shortest(viewpoint.aspect));
     xml_.end();
   }
 
@@ -130,8 +131,8 @@ class ViewpointWriter {
 }  // namespace
 
 std::string viewpoint_file(const report::ClashContents& contents, const PlannedTopic& topic,
-                           const std::string& guid, const pictures::ClashViewpoint& seen) {
-  return ViewpointWriter(contents, guid).write(sides_of(contents, topic), seen);
+                           const std::string& guid, const pictures::ClashViewpoint& viewpoint) {
+  return ViewpointWriter(contents, guid).write(sides_of(contents, topic), viewpoint);
 }
 
 }  // namespace strake::bcf

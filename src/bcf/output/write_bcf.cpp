@@ -44,15 +44,15 @@ Result<TopicViewpoint> make_viewpoint(const pictures::Scenery& scenery, const Pl
   const pictures::Subject subject = topic.group != nullptr
                                         ? pictures::subject_of(contents, *topic.group)
                                         : pictures::subject_of(topic.results.front());
-  const Result<pictures::ClashViewpoint> seen =
+  const Result<pictures::ClashViewpoint> viewpoint =
       pictures::choose_viewpoint(scenery, subject, {}, context);
-  if (!seen) return seen.error();
+  if (!viewpoint) return viewpoint.error();
   // A viewpoint never changes: what is seen differently is another one.
   TopicViewpoint view;
-  view.guid = part_guid(topic_guid, viewpoint_file(contents, topic, topic_guid, *seen));
-  view.file = viewpoint_file(contents, topic, view.guid, *seen);
+  view.guid = part_guid(topic_guid, viewpoint_file(contents, topic, topic_guid, *viewpoint));
+  view.file = viewpoint_file(contents, topic, view.guid, *viewpoint);
   const Result<pictures::ClashPicture> drawn =
-      pictures::draw_clash(scenery, subject, *seen, {.caption = false}, context);
+      pictures::draw_clash(scenery, subject, *viewpoint, {.caption = false}, context);
   if (!drawn) return drawn.error();
   Result<std::string> picture = pictures::png_of(*drawn, kPictureWidth, kPictureHeight);
   if (!picture) return picture.error();
@@ -75,9 +75,9 @@ Result<TopicFiles> make_topic(const report::ClashContents& contents,
   TopicFiles made{facts.guid, {}};
   TopicViewpoint view;
   if (scenery != nullptr) {
-    Result<TopicViewpoint> seen = make_viewpoint(*scenery, topic, facts.guid, context);
-    if (!seen) return seen.error();
-    view = std::move(*seen);
+    Result<TopicViewpoint> viewpoint = make_viewpoint(*scenery, topic, facts.guid, context);
+    if (!viewpoint) return viewpoint.error();
+    view = std::move(*viewpoint);
   }
   const std::string markup = markup_file(facts, {contents.bcf.version_3, view.guid});
   if (const Status status = add_packed(made, "markup.bcf", markup); !status) return status.error();
@@ -163,7 +163,7 @@ std::string left_out_of_bcf(const report::ClashContents& contents) {
   std::string text;
   if (left_out.groups > 0) text = counted(left_out.groups, "group");
   if (left_out.results > 0) text = counted(left_out.results, "result");
-  if (!text.empty()) text += " beyond the first " + std::to_string(contents.bcf.most);
+  if (!text.empty()) text += " beyond the first " + std::to_string(contents.bcf.max_topics);
   if (left_out.contacts > 0)
     text += (text.empty() ? "" : ", and ") + counted(left_out.contacts, "contact");
   return text;

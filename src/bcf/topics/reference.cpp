@@ -106,7 +106,7 @@ std::optional<ClashReference> find_reference(std::string_view description) {
   reference.assignee_mark = word.substr(kAssignee.size());
   // A clash that is named twice is decided about once, as it was named first.
   std::set<std::string> keys;
-  while (reference.clashes.size() < kMostReferred) {
+  while (reference.clashes.size() < kMaxReferred) {
     std::optional<ReferredClash> clash = referred(take_word(rest));
     if (!clash) break;
     if (keys.insert(clash->key).second) reference.clashes.push_back(std::move(*clash));

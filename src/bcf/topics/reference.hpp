@@ -29,7 +29,7 @@ struct ClashReference {
 };
 
 /// The most clashes that a topic names: it decides about these alone.
-inline constexpr std::size_t kMostReferred = 1000;
+inline constexpr std::size_t kMaxReferred = 1000;
 
 /// Returns the GUID of the topic of a clash, by its key, and of a group, by its id: the same in
 /// every file.

@@ -26,7 +26,7 @@ namespace {
 using clash::ResultRef;
 using report::DecisionStatus;
 
-constexpr std::size_t kTitleName = 60, kLongName = 200, kMostListed = 20;
+constexpr std::size_t kTitleName = 60, kLongName = 200, kMaxListed = 20;
 /// What elements inherit from what importers and readers make of the head of a file.
 constexpr std::string_view kFileDate = "FileDate", kProjectId = "ProjectId";
 constexpr std::string_view kNoDate = "1970-01-01T00:00:00Z";
@@ -93,7 +93,7 @@ ClashReference reference_of(const report::ClashContents& contents, const Planned
   ClashReference reference;
   if (topic.group != nullptr) reference.group = topic.group->id;
   reference.assignee_mark = assignee_digest(assignee);
-  const std::size_t named = std::min(topic.results.size(), kMostReferred);
+  const std::size_t named = std::min(topic.results.size(), kMaxReferred);
   for (std::size_t r = 0; r < named; ++r)
     reference.clashes.push_back({key_of(contents, topic.results[r]),
                                  current_status(decision_about(contents, topic.results[r]))});
@@ -103,13 +103,13 @@ ClashReference reference_of(const report::ClashContents& contents, const Planned
 std::string description_of(const report::ClashContents& contents, const PlannedTopic& topic,
                            const ClashReference& reference) {
   std::string text;
-  const std::size_t listed = std::min(topic.results.size(), kMostListed);
+  const std::size_t listed = std::min(topic.results.size(), kMaxListed);
   for (std::size_t r = 0; r < listed; ++r) append_result(text, contents, topic.results[r]);
   if (listed < topic.results.size())
     text += "And " + std::to_string(topic.results.size() - listed) + " more.\n";
-  if (kMostReferred < topic.results.size())
+  if (kMaxReferred < topic.results.size())
     text +=
-        "What is decided here holds for the worst " + std::to_string(kMostReferred) + " of them.\n";
+        "What is decided here holds for the worst " + std::to_string(kMaxReferred) + " of them.\n";
   if (const std::string& test = test_of(contents, topic.results.front()).name; !test.empty())
     text += "Test: " + short_name(test, kLongName) + "\n";
   return text + "\n" + reference_line(reference);
@@ -150,7 +150,7 @@ std::string assignee_of(const report::ClashContents& contents, const PlannedTopi
 }
 
 /// Returns what people said of a result.
-std::vector<report::DecisionComment> said_of(const report::Decision& decision) {
+std::vector<report::DecisionComment> all_comments(const report::Decision& decision) {
   if (!decision.comments.empty()) return decision.comments;
   if (decision.comment.empty()) return {};
   return {{decision.date, decision.by, decision.comment}};
@@ -158,31 +158,31 @@ std::vector<report::DecisionComment> said_of(const report::Decision& decision) {
 
 /// Returns a comment as a topic has it. One that another program named has that name in the topic
 /// that it was said in; no two topics have a comment of one GUID.
-TopicComment topic_comment(const report::DecisionComment& said, const std::string& topic,
+TopicComment topic_comment(const report::DecisionComment& stated, const std::string& topic,
                            const report::BcfForm& form) {
   const auto author_of = [&](const std::string& by) {
     const std::string author = compared_text(by);
     return author.empty() ? form.author : author;
   };
   TopicComment comment;
-  comment.date = date_time(said.at, form);
-  comment.author = author_of(said.by);
-  comment.text = printable_lines(said.text);
-  if (!said.first_at.empty()) {
-    comment.date = date_time(said.first_at, form);
-    const std::string changer = std::exchange(comment.author, author_of(said.first_by));
-    if (auto changed = stated_time(said.at)) {
+  comment.date = date_time(stated.at, form);
+  comment.author = author_of(stated.by);
+  comment.text = printable_lines(stated.text);
+  if (!stated.first_at.empty()) {
+    comment.date = date_time(stated.first_at, form);
+    const std::string changer = std::exchange(comment.author, author_of(stated.first_by));
+    if (auto changed = stated_time(stated.at)) {
       comment.changed = std::move(*changed);
       comment.changer = changer;
     }
   }
-  if (!is_guid(said.guid))
+  if (!is_guid(stated.guid))
     comment.guid =
         part_guid(topic, "comment:" + comment.date + "\n" + comment.author + "\n" + comment.text);
-  else if (said.topic == topic)
-    comment.guid = said.guid;
+  else if (stated.topic == topic)
+    comment.guid = stated.guid;
   else
-    comment.guid = part_guid(topic, "comment:" + said.guid);
+    comment.guid = part_guid(topic, "comment:" + stated.guid);
   return comment;
 }
 
@@ -194,8 +194,8 @@ std::vector<TopicComment> comments_of(const report::ClashContents& contents,
   for (const ResultRef& result : topic.results) {
     const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr) continue;
-    for (const report::DecisionComment& said : said_of(*decided->decision)) {
-      TopicComment comment = topic_comment(said, guid, contents.bcf);
+    for (const report::DecisionComment& stated : all_comments(*decided->decision)) {
+      TopicComment comment = topic_comment(stated, guid, contents.bcf);
       const auto [at, is_new] = by_guid.try_emplace(comment.guid, comment);
       if (!is_new && at->second.changed <= comment.changed) at->second = std::move(comment);
     }
@@ -261,17 +261,17 @@ std::string date_time(std::string_view date, const report::BcfForm& form) {
 
 std::uint64_t count_strange_dates(const report::ClashContents& contents, const TopicPlan& plan) {
   std::uint64_t count = 0;
-  const auto look = [&](std::string_view date) {
+  const auto take_latest = [&](std::string_view date) {
     if (!date.empty() && !stated_time(date)) ++count;
   };
   for (const PlannedTopic& topic : plan.topics)
     for (const ResultRef& result : topic.results) {
       const report::DecidedResult* const decided = decision_about(contents, result);
       if (decided == nullptr) continue;
-      look(decision_time(*decided->decision));
-      for (const report::DecisionComment& said : decided->decision->comments) {
-        look(said.at);
-        look(said.first_at);
+      take_latest(decision_time(*decided->decision));
+      for (const report::DecisionComment& stated : decided->decision->comments) {
+        take_latest(stated.at);
+        take_latest(stated.first_at);
       }
     }
   return count;
@@ -279,12 +279,12 @@ std::uint64_t count_strange_dates(const report::ClashContents& contents, const T
 
 std::string newest_date(const model::Model& model) {
   std::string newest;
-  const auto look = [&](const model::Attributes& stated) {
+  const auto take_latest = [&](const model::Attributes& stated) {
     for (const auto& [name, value] : stated)
       if (name == kFileDate) newest = std::max(newest, utc_of(value).value_or(std::string()));
   };
-  for (const model::Attributes& stated : model.group_attributes) look(stated);
-  for (const model::Object& object : model.objects) look(object.attributes);
+  for (const model::Attributes& stated : model.group_attributes) take_latest(stated);
+  for (const model::Object& object : model.objects) take_latest(object.attributes);
   return newest;
 }
 

@@ -43,7 +43,7 @@ void sort_by_rank(const report::ClashContents& contents, std::vector<ResultRef>&
 TopicPlan plan_groups(const report::ClashContents& contents) {
   TopicPlan plan;
   const std::vector<clash::Group>& groups = contents.grouping->groups;
-  const std::size_t taken = std::min(groups.size(), contents.bcf.most);
+  const std::size_t taken = std::min(groups.size(), contents.bcf.max_topics);
   for (std::size_t g = 0; g < taken; ++g) {
     plan.topics.push_back({&groups[g], groups[g].results});
     sort_by_rank(contents, plan.topics.back().results);
@@ -68,7 +68,7 @@ TopicPlan plan_results(const report::ClashContents& contents) {
     }
   }
   sort_by_rank(contents, results);
-  const std::size_t taken = std::min(results.size(), contents.bcf.most);
+  const std::size_t taken = std::min(results.size(), contents.bcf.max_topics);
   plan.left_out.results = results.size() - taken;
   for (std::size_t r = 0; r < taken; ++r) plan.topics.push_back({nullptr, {results[r]}});
   return plan;

@@ -19,7 +19,7 @@ struct PlannedTopic {
 struct LeftOutCounts {
   std::uint64_t groups = 0;    ///< beyond the most topics
   std::uint64_t results = 0;   ///< beyond the most topics, where there are no groups
-  std::uint64_t contacts = 0;  ///< not asked for
+  std::uint64_t contacts = 0;  ///< not requested
 };
 
 struct TopicPlan {
@@ -29,7 +29,7 @@ struct TopicPlan {
 
 /// Chooses topics: the groups in their order; without groups the results that no rule allows, those
 /// that nobody needs to look at behind all others, then by class, by d and in their durable order.
-/// A contact that somebody decided about is asked for by that.
+/// A contact that somebody decided about is requested by that.
 [[nodiscard]] TopicPlan plan_topics(const report::ClashContents& contents);
 
 }  // namespace strake::bcf

@@ -14,7 +14,7 @@ using report::DecisionStatus;
 
 struct StatusWord {
   std::string_view text;
-  ParsedStatus said;
+  ParsedStatus status;
 };
 
 /// In small letters; words of ours, then those that other programs have for the same.
@@ -61,11 +61,11 @@ std::string_view topic_status(DecisionStatus status) {
 std::optional<ParsedStatus> parse_topic_status(std::string_view word) {
   const std::string small = lowered(trimmed(word, " \t\r\n"));
   const auto* const at = std::ranges::find(kWords, small, &StatusWord::text);
-  return at == kWords.end() ? std::nullopt : std::optional(at->said);
+  return at == kWords.end() ? std::nullopt : std::optional(at->status);
 }
 
-DecisionStatus decided_status(ParsedStatus said) {
-  switch (said) {
+DecisionStatus decided_status(ParsedStatus status) {
+  switch (status) {
     case ParsedStatus::open:
     case ParsedStatus::active:
       return DecisionStatus::active;

@@ -25,7 +25,7 @@ enum class ParsedStatus : std::uint8_t { open, active, reviewed, approved, resol
 [[nodiscard]] std::optional<ParsedStatus> parse_topic_status(std::string_view word);
 
 /// Returns the status that a topic gives to a clash which is in another one.
-[[nodiscard]] report::DecisionStatus decided_status(ParsedStatus said);
+[[nodiscard]] report::DecisionStatus decided_status(ParsedStatus status);
 
 /// Returns "High" for a hit, "Normal" for a clearance violation, "Low" for a contact.
 [[nodiscard]] std::string_view priority(clash::Class cls);

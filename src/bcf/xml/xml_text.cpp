@@ -45,13 +45,13 @@ std::string compared_text(std::string_view text) {
   return compared;
 }
 
-std::string short_name(std::string_view name, std::size_t most) {
+std::string short_name(std::string_view name, std::size_t limit) {
   std::string shown = printable(name);
   std::vector<std::string_view> characters;
   for (std::string_view rest = shown; !rest.empty();)
     characters.push_back(take_character(rest).bytes);
-  if (characters.size() <= most) return shown;
-  const std::size_t front = (most - 1) / 2, back = most - 1 - front;
+  if (characters.size() <= limit) return shown;
+  const std::size_t front = (limit - 1) / 2, back = limit - 1 - front;
   std::string cut;
   for (std::size_t i = 0; i < front; ++i) cut += characters[i];
   cut += "\xE2\x80\xA6";

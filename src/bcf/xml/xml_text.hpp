@@ -17,7 +17,7 @@ namespace strake::bcf {
 [[nodiscard]] std::string compared_text(std::string_view text);
 
 /// Returns a printable name of at most so many characters; the middle of a longer one is left out.
-[[nodiscard]] std::string short_name(std::string_view name, std::size_t most);
+[[nodiscard]] std::string short_name(std::string_view name, std::size_t limit);
 
 /// Writes XML with an element a line. Names of elements and attributes must last as long.
 class XmlWriter {

@@ -44,21 +44,21 @@ class BoxPairs {
            const parallel::Context& context)
       : items_(items), options_(options), context_(context) {}
 
-  Result<std::vector<geometry::IndexPair>> find(std::uint64_t most) {
-    if (all()) return geometry::overlapping_box_pairs_brute_force(items_, context_, most);
+  Result<std::vector<geometry::IndexPair>> find(std::uint64_t limit) {
+    if (all()) return geometry::overlapping_box_pairs_brute_force(items_, context_, limit);
     if (tree_.nodes().empty()) {
       auto tree = geometry::SceneBvh::build(items_, context_);
       if (!tree) return tree.error();
       tree_ = std::move(*tree);
     }
-    return geometry::overlapping_box_pairs(tree_, context_, most);
+    return geometry::overlapping_box_pairs(tree_, context_, limit);
   }
   [[nodiscard]] Result<std::vector<geometry::IndexPair>> find(
       const geometry::BoxesInFrames& framed) const {
     return all() ? geometry::overlapping_box_pairs_brute_force(items_, framed, context_,
-                                                               options_.engine.most_pairs)
+                                                               options_.engine.max_pairs)
                  : geometry::overlapping_box_pairs(items_, framed, context_,
-                                                   options_.engine.most_pairs);
+                                                   options_.engine.max_pairs);
   }
 
  private:
@@ -76,13 +76,13 @@ Result<CandidatePairs> box_pairs(const std::vector<geometry::BoxItem>& items,
                                  const ScenePartList& list, const SearchReach& reach,
                                  const Options& options, const parallel::Context& context) {
   BoxPairs by_boxes(items, options, context);
-  auto pairs = by_boxes.find(most_unframed_pairs(items.size(), options));
+  auto pairs = by_boxes.find(max_unframed_pairs(items.size(), options));
   const bool many = !pairs && pairs.error().code == ErrorCode::input;
   if (many) {
     const auto framed = make_oriented_boxes(list, reach, context);
     if (!framed) return framed.error();
     pairs = framed->frames.size() > 1 ? by_boxes.find(*framed)
-                                      : by_boxes.find(options.engine.most_pairs);
+                                      : by_boxes.find(options.engine.max_pairs);
   }
   if (!pairs) return pairs.error();
   CandidatePairs found{std::move(*pairs), 0, many};
@@ -127,7 +127,7 @@ Status gather_by_objects(std::vector<geometry::IndexPair>& pairs, const ScenePar
 
 Error too_many(const Options& options) {
   return {ErrorCode::input,
-          "more than " + std::to_string(options.engine.most_pairs) +
+          "more than " + std::to_string(options.engine.max_pairs) +
               " pairs of parts are within reach of each other",
           "clash",
           "give a smaller clearance, or raise the limit with --most-pairs; or the model holds many "
@@ -152,8 +152,8 @@ bool are_compared(const Sets& sets, std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options) {
-  return std::min(options.engine.most_pairs, kManyPairs * parts);
+std::uint64_t max_unframed_pairs(std::uint64_t parts, const Options& options) {
+  return std::min(options.engine.max_pairs, kManyPairs * parts);
 }
 
 geometry::Box3l inflated_box(const ScenePart& ref, double reach) {
@@ -241,7 +241,7 @@ Result<CandidatePairs> find_pairs_of_cell(const ScenePartList& list, const Sets&
       context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
       [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
   if (!items) return items.error();
-  const auto all = BoxPairs(*items, options, context).find(options.engine.most_pairs);
+  const auto all = BoxPairs(*items, options, context).find(options.engine.max_pairs);
   if (!all) return all.error().code == ErrorCode::input ? too_many(options) : all.error();
   const std::vector<geometry::Box3l> boxes = object_boxes(list, reach, sets.in_a.size());
   auto own = parallel::collect<geometry::IndexPair>(
@@ -262,7 +262,7 @@ Result<CandidatePairs> find_pairs_of_cell(const ScenePartList& list, const Sets&
 Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& list,
                                                          const Sets& sets, const SearchReach& reach,
                                                          std::span<const Change> change,
-                                                         std::uint64_t most,
+                                                         std::uint64_t limit,
                                                          const parallel::Context& context) {
   const auto items = parallel::transform(
       context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
@@ -276,7 +276,7 @@ Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& li
   if (!items) return items.error();
   const auto tree = geometry::SceneBvh::build(*items, context);
   if (!tree) return tree.error();
-  auto pairs = geometry::overlapping_box_pairs(*tree, context, most);
+  auto pairs = geometry::overlapping_box_pairs(*tree, context, limit);
   if (!pairs) {
     if (pairs.error().code == ErrorCode::input) return std::optional<CandidatePairs>();
     return pairs.error();

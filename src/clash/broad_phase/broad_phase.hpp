@@ -29,7 +29,7 @@ struct ScenePart {
   float step = 0;            ///< grid units: step of the source's numbers if coarse, else 0
 };
 
-/// The solids and sheets of the objects in either set, and lines where asked for, by object and
+/// The solids and sheets of the objects in either set, and lines where requested, by object and
 /// number.
 struct ScenePartList {
   std::vector<ScenePart> parts;
@@ -113,17 +113,17 @@ struct Cell {
 
 /// Returns the most pairs of boxes that a test over so many parts may have without boxes along
 /// their faces.
-[[nodiscard]] std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options);
+[[nodiscard]] std::uint64_t max_unframed_pairs(std::uint64_t parts, const Options& options);
 
 /// What became of each object since an earlier run.
 enum class Change : std::uint8_t { none, near, changed };
 
 /// Returns the pairs of find_candidate_pairs() of which one object at least has changed, where they
-/// need no boxes along faces; nothing where there are more than `most` pairs of boxes. `change` has
-/// an entry per object. Errors: cancelled.
+/// need no boxes along faces; nothing where there are more than `limit` pairs of boxes. `change`
+/// has an entry per object. Errors: cancelled.
 [[nodiscard]] Result<std::optional<CandidatePairs>> find_changed_pairs(
     const ScenePartList& list, const Sets& sets, const SearchReach& reach,
-    std::span<const Change> change, std::uint64_t most, const parallel::Context& context);
+    std::span<const Change> change, std::uint64_t limit, const parallel::Context& context);
 
 /// The pairs of objects behind pairs of parts; the pairs of parts of one pair of objects are
 /// neighbours, as find_candidate_pairs() lists them.

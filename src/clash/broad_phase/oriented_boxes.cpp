@@ -29,7 +29,7 @@ constexpr double kGain = 8;
 /// How many times larger than its own box a part's box in a frame of others may be.
 constexpr double kLoss = 2;
 /// The most frames that are kept, since each is joined with each.
-constexpr std::size_t kMostFrames = 16;
+constexpr std::size_t kMaxFrames = 16;
 
 /// Returns the extent of the vertices, in the part's own coordinates rotated into a frame.
 Box3d extent_in(const Mat3d& axes, const Part& part) {
@@ -87,7 +87,7 @@ struct Frames {
       if (volume <= kLoss * askew.volume) return f;
       tightest = std::min(tightest, {volume, f});
     }
-    if (all.size() >= kMostFrames) return tightest.second;
+    if (all.size() >= kMaxFrames) return tightest.second;
     all.push_back(askew.axes);
     return static_cast<std::uint32_t>(all.size() - 1);
   }

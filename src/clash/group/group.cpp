@@ -129,7 +129,7 @@ class Namer {
   }
 
   /// Gives groups by assembly of one name their paths, and an id of its own to each of those that
-  /// paths do not tell apart.
+  /// paths do not distinguish.
   void make_names_unique(std::vector<Group>& groups, const GroupRules& rules) const {
     std::map<std::string, std::size_t> names, ids;
     for (const Group& group : groups) ++names[group.name], ++ids[group.id];
@@ -216,7 +216,7 @@ void sort_groups(std::vector<Group>& groups, SortBy by) {
 
 Result<Grouping> group_results(const Findings& findings, const model::Model& model,
                                const GroupRules& rules, const LeavesOut& leaves_out) {
-  if (!(rules.distance_mm >= kLeastGroupDistanceMm))
+  if (!(rules.distance_mm >= kMinGroupDistanceMm))
     return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
                  "group distance", "give a length such as 3m"};
   const std::vector<GroupingItem> items = items_of(findings, rules.contacts, leaves_out);

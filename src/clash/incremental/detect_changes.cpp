@@ -98,12 +98,12 @@ Result<Report> run_after(const model::Scene& scene, const Sets& sets, const Opti
   const auto neighbours = find_neighbours(scene, sets, options, reach, *map, context);
   if (!neighbours) return neighbours.error();
   // So few that a full run needs no boxes along faces either; it may find fewer than this counts.
-  const std::uint64_t most = most_unframed_pairs(neighbours->parts, options);
+  const std::uint64_t largest = max_unframed_pairs(neighbours->parts, options);
   const std::uint64_t before = kept.box_pairs;
   timer.reset();
-  if (before > most) return full();
+  if (before > largest) return full();
   auto fresh = detect_among(scene, sets, options, policy,
-                            {neighbours->change, neighbours->asked, most - before}, context);
+                            {neighbours->change, neighbours->tested, largest - before}, context);
   if (!fresh) return fresh.error();
   if (!*fresh) return full();
   if (!fits(earlier.report, **fresh, earlier.now.size())) return misfit;

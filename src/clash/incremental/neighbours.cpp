@@ -92,7 +92,7 @@ class NeighbourSearch {
     found.widest_precision_um = totals->widest_precision_um;
     found.unknown_sag = std::move(totals->unknown_sag);
     for (std::uint32_t o = 0; o < found.change.size(); ++o)
-      if (found.change[o] != Change::none) found.asked.push_back(o);
+      if (found.change[o] != Change::none) found.tested.push_back(o);
     return found;
   }
 

@@ -14,7 +14,7 @@ namespace strake::clash {
 /// report says of all bodies together.
 struct Neighbours {
   std::vector<Change> change;             ///< by object
-  std::vector<std::uint32_t> asked;       ///< those that changed or are near, ascending
+  std::vector<std::uint32_t> tested;      ///< those that changed or are near, ascending
   std::uint64_t parts = 0;                ///< parts that are tested
   float widest_precision_um = 0;          ///< of their bodies
   std::vector<std::uint8_t> unknown_sag;  ///< by file: whether a part of it has an unknown sag

@@ -33,7 +33,7 @@ struct MergeInputs {
 [[nodiscard]] bool fits(const Report& earlier, const Report& fresh, std::size_t objects);
 
 /// Brings the report of an earlier run up to date by one about the pairs of changed objects, from
-/// detect_among(). `changes` takes what that does to its pairs; null: nobody asks. Errors:
+/// detect_among(). `changes` takes what that does to its pairs; null: nobody needs it. Errors:
 /// cancelled.
 [[nodiscard]] Result<Report> merge(Report earlier, Report fresh, const MergeInputs& inputs,
                                    const parallel::Context& context, PairChanges* changes);

@@ -88,11 +88,11 @@ void add_allowed(WordHash& hash, const Allowed& rule) {
 /// Names each number by its first object, which no other number has.
 std::vector<Hash128> named_by_first(const std::vector<std::uint32_t>& numbers,
                                     const ElementHashes& elements) {
-  std::uint32_t most = 0;
+  std::uint32_t largest = 0;
   for (const std::uint32_t n : numbers)
-    if (n != kNoLabel) most = std::max(most, n + 1);
-  std::vector<Hash128> names(most);
-  std::vector<bool> named(most, false);
+    if (n != kNoLabel) largest = std::max(largest, n + 1);
+  std::vector<Hash128> names(largest);
+  std::vector<bool> named(largest, false);
   for (std::uint32_t o = 0; o < numbers.size(); ++o) {
     const std::uint32_t n = numbers[o];
     if (n == kNoLabel || named[n]) continue;
@@ -114,10 +114,10 @@ void name_by_holders(const Linked::Lists& lists, const ElementHashes& elements, 
 }
 
 std::vector<Hash128> named_by_holders(const Linked& linked, const ElementHashes& elements) {
-  std::uint32_t most = 0;
+  std::uint32_t largest = 0;
   for (const Linked::Lists* const lists : {&linked.answers_to, &linked.refers_to})
-    for (const std::uint32_t n : lists->numbers) most = std::max(most, n + 1);
-  std::vector<Hash128> names(most);
+    for (const std::uint32_t n : lists->numbers) largest = std::max(largest, n + 1);
+  std::vector<Hash128> names(largest);
   name_by_holders(linked.answers_to, elements, 1, names);
   name_by_holders(linked.refers_to, elements, 2, names);
   return names;

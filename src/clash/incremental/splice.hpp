@@ -36,10 +36,11 @@ struct ItemRun {
 }
 
 /// Returns all of so many numbers as runs of at most so many.
-[[nodiscard]] inline std::vector<ItemRun> runs_of_length(std::size_t numbers, std::size_t most) {
+[[nodiscard]] inline std::vector<ItemRun> runs_of_length(std::size_t numbers,
+                                                         std::size_t max_length) {
   std::vector<ItemRun> runs;
-  for (std::size_t first = 0; first < numbers; first += most)
-    runs.push_back({first, std::min(numbers, first + most)});
+  for (std::size_t first = 0; first < numbers; first += max_length)
+    runs.push_back({first, std::min(numbers, first + max_length)});
   return runs;
 }
 
@@ -142,12 +143,12 @@ template <class T, class Gone>
     const parallel::Context& context, const Gone& gone, const std::vector<bool>* blocks = nullptr) {
   /// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16384;
-  const std::vector<ItemRun> looked_at =
+  const std::vector<ItemRun> visited =
       blocks == nullptr ? runs_of_length(list.size(), kGrain) : items_of(list, *blocks);
   const auto dead = parallel::collect<std::size_t>(
-      context, {.name = "pairs of changed objects", .n = looked_at.size()},
+      context, {.name = "pairs of changed objects", .n = visited.size()},
       [&](std::size_t r, std::vector<std::size_t>& out) {
-        for (std::size_t i = looked_at[r].first; i < looked_at[r].last; ++i)
+        for (std::size_t i = visited[r].first; i < visited[r].last; ++i)
           if (map.now[index(list[i].a)] == model::kNoObject ||
               map.now[index(list[i].b)] == model::kNoObject)
             out.push_back(i);

@@ -222,7 +222,7 @@ Status run_sphere_narrow_phase(const StageInputs& stage, std::vector<Candidate>&
         c.evaluation.answer = with_cost(c, stage.work.context(), [&](NarrowWork& work) {
           return evaluate_by_spheres(stage.cache.treed(a), stage.cache.treed(b),
                                      stage.pair_tolerances.of(a, b),
-                                     stage.options.engine.most_spheres, work);
+                                     stage.options.engine.max_spheres, work);
         });
       });
 }
@@ -289,13 +289,13 @@ bool lies_within(const WindingNumber& winding, const ScenePart& around, const Sc
 /// A surface with how open it is, and how open it may be.
 struct EnclosingSurface {
   WindingNumber winding;
-  double openness = 1, most = 0;
+  double openness = 1, max_openness = 0;
 };
 
 /// The share of the directions within a surface that may lead out on average, if it is to be meant
 /// as a body: where surfaces are apart, where it lacks pieces of flat faces alone, and where they
 /// touch, which is reported already, but not as what it may be.
-constexpr double kMostOut = 0.05, kMostOutOfFaces = 0.25, kMostOutOfContact = 0.01;
+constexpr double kMaxOut = 0.05, kMaxOutOfFaces = 0.25, kMaxOutOfContact = 0.01;
 
 bool may_be_hit(const Candidate& c) {
   const Classification& j = c.evaluation.answer.classification;
@@ -321,15 +321,17 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
     if (may_enclose(b, a) && has_corner_in_box(b, a)) parts[b.unique] = b.placed.part;
   }
   std::vector<std::optional<EnclosingSurface>> around(parts.size());
-  const Status made = parallel::for_each(
-      work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
-      [&](std::size_t p) {
-        if (parts[p] == nullptr) return;
-        WindingNumber winding(*parts[p]);
-        const double most = geometry::has_incomplete_faces(*parts[p]) ? kMostOutOfFaces : kMostOut;
-        const double openness = winding.openness(most);
-        if (openness <= most) around[p] = {std::move(winding), openness, most};
-      });
+  const Status made =
+      parallel::for_each(work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
+                         [&](std::size_t p) {
+                           if (parts[p] == nullptr) return;
+                           WindingNumber winding(*parts[p]);
+                           const double max_openness =
+                               geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
+                           const double openness = winding.openness(max_openness);
+                           if (openness <= max_openness)
+                             around[p] = {std::move(winding), openness, max_openness};
+                         });
   if (!made) return made.error();
   return work.for_each_of(
       *enclosable, "pairs within open surfaces", PairTasks::kGrain,
@@ -338,7 +340,7 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
         const bool touch = classification.cls == Class::contact;
         const auto within = [&](const ScenePart& skin, const ScenePart& part) {
           const auto& of = around[skin.unique];
-          return of && of->openness <= (touch ? kMostOutOfContact : of->most) &&
+          return of && of->openness <= (touch ? kMaxOutOfContact : of->max_openness) &&
                  may_enclose(skin, part) && lies_within(of->winding, skin, part);
         };
         if (!within(a, b) && !within(b, a)) return;

@@ -76,14 +76,14 @@ namespace {
 
 /// The depth of an interior that is known to be met without a measured depth: less than any grid
 /// can resolve.
-constexpr double kLeastDepth = 1e-6;
+constexpr double kMinDepth = 1e-6;
 
 /// Grid units by which a distance may be left open where it decides nothing: what the snap makes of
 /// two rotated flat faces.
 constexpr double kSnapSlack = 4;
 
 /// Grid units: a distance of more than this is not 0, whatever the rounding.
-constexpr double kLeastGap = 1.0 / 1024;
+constexpr double kMinGap = 1.0 / 1024;
 
 geometry::PartWithObb framed(const PairOperand& part) { return {part.treed.placed, part.frame}; }
 
@@ -170,7 +170,7 @@ PairEvaluation PairEvaluator::evaluation(const PriorBounds& known) {
 
 /// Whether the two are separated by a plane that is no face of either, as between pipes that cross.
 bool PairEvaluator::hulls_part() const {
-  return geometry::convex_hull_separation(framed(part_a_), framed(part_b_), kLeastGap).lower > 0;
+  return geometry::convex_hull_separation(framed(part_a_), framed(part_b_), kMinGap).lower > 0;
 }
 
 PartPairResult PairEvaluator::distance(double reach) {
@@ -328,7 +328,7 @@ void PairEvaluator::nearly_touching(const geometry::ClosestPair& near,
 }
 
 /// Whether moves within a contact distance that is more than may overlap separate two sheets, so
-/// that it cannot be told whether they cross.
+/// that it cannot be known whether they cross.
 bool PairEvaluator::may_touch(DepthOptions goal) {
   if (options_.contact_distance <= goal.apart_within) return false;
   if (goal.known_upper <= options_.contact_distance) return true;
@@ -362,7 +362,7 @@ void PairEvaluator::interpenetrating(const MeetingResult& meeting, double gap,
   }
   if (sheets && may_touch(goal)) depth.lower = 0;
   if (!(depth.value > 0)) {
-    depth.value = kLeastDepth;
+    depth.value = kMinDepth;
     depth.point = meeting.point;
   }
   // A move that separates the two bounds the depth of a sheet in a solid as well.

@@ -90,7 +90,7 @@ Result<double> PairToleranceTable::widest_band(std::span<const ScenePart> parts,
       [](double& into, const double& partial) { into = std::max(into, partial); });
 }
 
-double PairToleranceTable::least_touch_gap() const {
+double PairToleranceTable::min_touch_gap() const {
   double least = std::numeric_limits<double>::infinity();
   for (const PairTolerances& n : narrow_) least = std::min(least, n.touch_gap);
   return least;

@@ -49,7 +49,7 @@ class PairToleranceTable {
   [[nodiscard]] Result<double> widest_band(std::span<const ScenePart> parts,
                                            const parallel::Context& context) const;
   /// Returns the smallest touch gap of any pair, grid units.
-  [[nodiscard]] double least_touch_gap() const;
+  [[nodiscard]] double min_touch_gap() const;
 
  private:
   [[nodiscard]] double band(const ScenePart& part) const;

@@ -23,7 +23,7 @@ using geometry::Vec3d;
 
 /// Grid units: the most that the snap moves a point by, and the most where the source's unit and
 /// precision alone keep it off the grid, as whole millimetres written in metres.
-constexpr float kMostMoved = 0.8661F, kLeastMoved = 1.0F / 64;
+constexpr float kMaxMoved = 0.8661F, kMinMoved = 1.0F / 64;
 
 /// Returns the grid units from a coordinate to the next one on the grid; 0 for the double that is
 /// nearest to one.
@@ -37,26 +37,26 @@ double off_grid(double mm) {
 }
 
 float moved(const Vec3d& mm) {
-  const double most = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
+  const double largest = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
   // Along three axes a point is off by no more than twice as far.
-  constexpr double kLeast = static_cast<double>(kLeastMoved) / 2;
-  return !(most > 0) ? 0 : most > kLeast ? kMostMoved : kLeastMoved;
+  constexpr double kMin = static_cast<double>(kMinMoved) / 2;
+  return !(largest > 0) ? 0 : largest > kMin ? kMaxMoved : kMinMoved;
 }
 
-float most_moved(std::span<const Vec3d> points, const geometry::Mat3d& linear) {
-  float most = 0;
+float max_displacement(std::span<const Vec3d> points, const geometry::Mat3d& linear) {
+  float largest = 0;
   for (const Vec3d& p : points) {
-    most = std::max(most, moved(linear * p));
-    if (most == kMostMoved) break;
+    largest = std::max(largest, moved(linear * p));
+    if (largest == kMaxMoved) break;
   }
-  return most;
+  return largest;
 }
 
 float vertices_moved(const model::Shape& shape, const geometry::Mat3d& linear) {
   if (const auto* mesh = std::get_if<geometry::TriangleMesh>(&shape))
-    return most_moved(mesh->vertices, linear);
+    return max_displacement(mesh->vertices, linear);
   if (const auto* lines = std::get_if<geometry::Polylines>(&shape))
-    return most_moved(lines->points, linear);
+    return max_displacement(lines->points, linear);
   return 0;
 }
 

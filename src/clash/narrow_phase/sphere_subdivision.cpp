@@ -52,7 +52,7 @@ struct SphereOperand {
 class SphereSearch {
  public:
   SphereSearch(const PairOperand& a, const PairOperand& b, const PairTolerances& options,
-               std::uint64_t most_cells, NarrowWork& work)
+               std::uint64_t max_cells, NarrowWork& work)
       : part_a_(*a.treed.placed.part),
         part_b_(*b.treed.placed.part),
         a_{a.treed, {}},
@@ -61,7 +61,7 @@ class SphereSearch {
         thresholds_(thresholds(part_a_, part_b_, options)),
         // This is fine enough to tell a touch from a clash.
         resolution_(std::max(std::min(thresholds_.overlap, thresholds_.gap) / 2, kSmallest)),
-        most_cells_(most_cells),
+        max_cells_(max_cells),
         work_(work) {}
 
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
@@ -87,13 +87,13 @@ class SphereSearch {
 
   /// Whether the run was cancelled: one pair may take hours, and its answer is dropped then.
   [[nodiscard]] bool is_stopped() const {
-    constexpr std::uint64_t kBetweenLooks = 1024;
-    return cells_ % kBetweenLooks == 0 && work_.pair.team != nullptr &&
+    constexpr std::uint64_t kStopInterval = 1024;
+    return cells_ % kStopInterval == 0 && work_.pair.team != nullptr &&
            work_.pair.team->stop.stop_requested();
   }
 
   void visit_cell(const Box3d& cell) {
-    if (++cells_ > most_cells_) {
+    if (++cells_ > max_cells_) {
       exhausted_ = done_ = true;
       return;
     }
@@ -181,7 +181,7 @@ class SphereSearch {
   const PairTolerances& options_;
   Thresholds thresholds_;
   double resolution_;  ///< radius at which halving ends
-  std::uint64_t most_cells_;
+  std::uint64_t max_cells_;
   NarrowWork& work_;
   std::vector<Box3d> stack_;
   std::uint64_t cells_ = 0;
@@ -194,10 +194,10 @@ class SphereSearch {
 }  // namespace
 
 PartPairResult evaluate_by_spheres(const PairOperand& a, const PairOperand& b,
-                                   const PairTolerances& options, std::uint64_t most_cells,
+                                   const PairTolerances& options, std::uint64_t max_cells,
                                    NarrowWork& work) {
   return evaluate_in_canonical_order(a, b, [&](const PairOperand& x, const PairOperand& y) {
-    SphereSearch search(x, y, options, most_cells, work);
+    SphereSearch search(x, y, options, max_cells, work);
     const PartPairResult answer = search.run();
     work.depth_cells += search.cells();
     return answer;

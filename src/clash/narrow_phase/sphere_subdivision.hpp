@@ -14,13 +14,13 @@ namespace strake::clash {
 /// longest side again and again; a half whose surrounding sphere is farther from either part than
 /// the reach allows is dropped. A sphere as small as the resolution gives its centre's distances to
 /// both parts. The search ends at the first point that is a HIT. The cost is that of the area over
-/// which the parts are near each other, in units of (gap - tolerance) squared: after `most_cells`
+/// which the parts are near each other, in units of (gap - tolerance) squared: after `max_cells`
 /// halves the result is what was found by then, with a bracket that says so.
 ///
 /// Results carry brackets, so that their class is that of the exact narrow phase wherever it is not
 /// flagged. Relations are coarse: SEPARATE, ABUT_OUTSIDE, INTERFERE, CROSS.
 [[nodiscard]] PartPairResult evaluate_by_spheres(const PairOperand& a, const PairOperand& b,
                                                  const PairTolerances& options,
-                                                 std::uint64_t most_cells, NarrowWork& work);
+                                                 std::uint64_t max_cells, NarrowWork& work);
 
 }  // namespace strake::clash

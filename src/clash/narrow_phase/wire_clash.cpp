@@ -19,7 +19,7 @@ using geometry::PartKind;
 using geometry::Vec3d;
 
 /// A distance below this is rounding, grid units: it gives no direction between two points.
-constexpr double kLeastWireLength = 1.0 / 64;
+constexpr double kMinWireLength = 1.0 / 64;
 
 bool is_wire(const PairOperand& p) { return p.treed.placed.part->kind == PartKind::wire; }
 
@@ -59,7 +59,7 @@ Witness witness_of(const LowerDimensionalSeparation& s, bool in_solid) {
   const Vec3d way = s.inside ? s.on_other - s.on_body : s.on_body - s.on_other;
   const double length = std::sqrt(dot(way, way));
   Witness w{.on_a = s.on_body, .on_b = s.on_other, .interiors_meet = s.inside};
-  if (length >= kLeastWireLength && (in_solid || !s.inside)) w.away = way * (1 / length);
+  if (length >= kMinWireLength && (in_solid || !s.inside)) w.away = way * (1 / length);
   return w;
 }
 

@@ -12,14 +12,14 @@ using geometry::SurfacePoint;
 using geometry::Vec3d;
 
 /// A distance below this is rounding, grid units: it gives no direction between two points.
-constexpr double kLeastLength = 1.0 / 64;
+constexpr double kMinLength = 1.0 / 64;
 
 /// Returns the direction from the deepest point to the surface; where they all but coincide, out
 /// through the surface.
-Vec3d way_out(const Vec3d& deepest, const SurfacePoint& surface) {
+Vec3d exit_direction(const Vec3d& deepest, const SurfacePoint& surface) {
   const Vec3d way = surface.point - deepest;
   const double length = std::sqrt(dot(way, way));
-  return length < kLeastLength ? surface.normal : way * (1 / length);
+  return length < kMinLength ? surface.normal : way * (1 / length);
 }
 
 }  // namespace
@@ -64,10 +64,10 @@ Witness witness_of_depth(const PartWithBvh& a, const PartWithBvh& b, const Vec3d
   w.deep_in_a = solid_a && (!solid_b || in_a.distance >= in_b.distance);
   if (w.deep_in_a) {
     w.on_a = in_a.point;
-    w.away = -way_out(deepest, in_a);
+    w.away = -exit_direction(deepest, in_a);
   } else if (solid_b) {
     w.on_b = in_b.point + shift;
-    w.away = way_out(deepest - shift, in_b);
+    w.away = exit_direction(deepest - shift, in_b);
   }
   return w;
 }

@@ -78,8 +78,7 @@ Classification classify(const SignedSeparation& s, double width, const Threshold
       j.flags |= kUncertain;
     }
   }
-  if (j.cls == Class::no_hit && t.weld > kMostWeldBySnap)
-    j.cls = least_certain_class(j.severest, t);
+  if (j.cls == Class::no_hit && t.weld > kMaxWeldBySnap) j.cls = least_certain_class(j.severest, t);
   j.severest = std::max(j.severest, j.cls);
   return j;
 }
@@ -87,7 +86,7 @@ Classification classify(const SignedSeparation& s, double width, const Threshold
 }  // namespace
 
 Classification classify(const SignedSeparation& s, const Thresholds& t) {
-  const double by_snap = t.weld <= kMostWeldBySnap ? std::min(t.weld, s.sag) : 0;
+  const double by_snap = t.weld <= kMaxWeldBySnap ? std::min(t.weld, s.sag) : 0;
   return classify(with_weld(s, by_snap), s.upper - s.lower + 2 * s.moved, t);
 }
 

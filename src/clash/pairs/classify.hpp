@@ -45,7 +45,7 @@ inline constexpr double kBorderlineWidth = 8;
 /// Grid units: how far a weld of two bodies moves them against each other at most, if the snap
 /// alone took their corners off the edges they are on: 2 * sqrt(3). What is more was apart in the
 /// source.
-inline constexpr double kMostWeldBySnap = 3.4642;
+inline constexpr double kMaxWeldBySnap = 3.4642;
 
 /// Returns the class of a bracket. A bracket about a threshold and no wider than kBorderlineWidth
 /// gives the severer class and kBorderline; a wider one the class of d and kUncertain. A tolerance

@@ -100,8 +100,8 @@ UnionFind joined(const std::vector<LocatedResult>& located_results) {
 
 class RegionsOfPairs {
  public:
-  explicit RegionsOfPairs(const PartResults& results, std::uint64_t most)
-      : results_(results), most_(most) {}
+  explicit RegionsOfPairs(const PartResults& results, std::uint64_t limit)
+      : results_(results), limit_(limit) {}
 
   [[nodiscard]] Regions of(const Pair& pair) const {
     const std::size_t first = pair.first_region;
@@ -161,13 +161,13 @@ class RegionsOfPairs {
   void take(const std::vector<LocatedResult>& worst, Regions& regions) const {
     regions.count = static_cast<std::uint32_t>(worst.size());
     if (regions.count < 2) return;
-    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), most_);
+    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), limit_);
     for (std::size_t i = 0; i < listed; ++i) regions.worst.push_back(region_of(worst[i]));
   }
 
   /// Returns what a rule allows of a pair that none allows as a whole. Gaps round a hit or a
   /// contact, be it allowed, do not count, as they do not where nothing is allowed. Where there are
-  /// too many triangles to tell regions apart, one stands for all.
+  /// too many triangles to distinguish regions, one stands for all.
   [[nodiscard]] static std::vector<Region> allowed_of(std::vector<LocatedResult> located_results,
                                                       const Pair& whole) {
     Class worst = whole.cls;
@@ -183,7 +183,7 @@ class RegionsOfPairs {
   }
 
   const PartResults& results_;
-  std::uint64_t most_;
+  std::uint64_t limit_;
 };
 
 /// Appends how many regions of a pair each rule allows, by rule.
@@ -200,8 +200,8 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
                          Report& report) {
   // Only shares the work out: between 64 and 1024 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 256;
-  const bool found_regions = report.options.engine.most_regions > 0;
-  const RegionsOfPairs regions(results, report.options.engine.most_regions);
+  const bool found_regions = report.options.engine.max_regions > 0;
+  const RegionsOfPairs regions(results, report.options.engine.max_regions);
   auto others = parallel::collect<RegionList>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<RegionList>& out) {

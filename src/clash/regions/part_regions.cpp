@@ -40,7 +40,7 @@ void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
   for (std::size_t i = first; i < end; ++i) {
     if (cls(i) == Class::no_hit) continue;
     if (cls(i) == Class::clearance_violation && cls(i) != worst && !may_allow) continue;
-    // The regions of a line and any other part are not told apart.
+    // The regions of a line and any other part are not distinguished.
     if (has_wire(*evaluated.a(i).placed.part, *evaluated.b(i).placed.part)) continue;
     const bool copies = evaluated.of(i).evaluation.answer.relation == Relation::duplicate;
     out.push_back({i, copies ? RegionDetail::whole : RegionDetail::if_several});
@@ -63,7 +63,7 @@ Result<std::vector<RegionDetail>> region_detail_of(const EvaluatedPairs& evaluat
       [&](std::size_t k, std::vector<DetailRequest>& out) {
         const std::size_t i = objects.begin(k);
         const bool may_allow = rules.may_allow(evaluated.a(i).object, evaluated.b(i).object);
-        if (may_allow || options.engine.most_regions > 0)
+        if (may_allow || options.engine.max_regions > 0)
           request_detail(evaluated, objects, k, may_allow, out);
       });
   if (!all) return all.error();
@@ -81,13 +81,13 @@ using geometry::PartKind;
 using geometry::SingleRegionDetail;
 using geometry::Vec3d;
 
-/// The most pairs of near triangles for which regions are told apart. Parts of some thousand
+/// The most pairs of near triangles for which regions are distinguished. Parts of some thousand
 /// triangles may have them all near each other; of finer parts no pair of parts may take more than
 /// microseconds a triangle, and parts that lie face to face have a dozen a triangle. With 32 a pipe
 /// of 100,000 triangles in a sleeve took 6 µs a triangle, and was given up then.
-constexpr std::uint64_t kPairsPerTriangle = 2, kLeastPairs = 1U << 14U;
+constexpr std::uint64_t kPairsPerTriangle = 2, kMinPairs = 1U << 14U;
 /// The least number of cells of space that a region may cut, however many regions there are.
-constexpr std::uint32_t kLeastCells = 400;
+constexpr std::uint32_t kMinCells = 400;
 
 /// Finds the regions of two parts in canonical order.
 class PartRegionFinder {
@@ -133,8 +133,8 @@ class PartRegionFinder {
          .distance = std::max(whole_.separation.d, 0.0),
          .interiors_meet = whole_.separation.interiors_meet,
          .one = one,
-         .most_pairs = std::max(kLeastPairs, kPairsPerTriangle * (part_a_.triangles.size() +
-                                                                  part_b_.triangles.size()))},
+         .max_pairs = std::max(
+             kMinPairs, kPairsPerTriangle * (part_a_.triangles.size() + part_b_.triangles.size()))},
         work_.pair);
     if (found) found_ = std::move(*found);
     return found.has_value();
@@ -257,8 +257,8 @@ class PartRegionFinder {
     geometry::DepthOptions goal;
     // Regions share the allowance of the pair, as long as enough is left for each.
     const auto regions = static_cast<std::uint32_t>(found_.all.size());
-    goal.cells_undecided = std::max(goal.cells_undecided / regions, kLeastCells);
-    goal.cells_decided = std::max(goal.cells_decided / regions, kLeastCells);
+    goal.cells_undecided = std::max(goal.cells_undecided / regions, kMinCells);
+    goal.cells_decided = std::max(goal.cells_decided / regions, kMinCells);
     goal.threshold = thresholds_.overlap;
     goal.known_upper = -whole_.separation.lower;
     const geometry::Depth depth = crossing_
@@ -311,16 +311,16 @@ class PartRegionFinder {
     }
   }
 
-  /// The whole may be known from the true surfaces, where regions are told by triangles.
+  /// The whole may be known from the true surfaces, where regions are distinguished by triangles.
   void keep_within_whole(PartPairResult& answer) const {
     SignedSeparation& s = answer.separation;
     const double least = whole_.separation.lower - whole_.separation.sag;
     if (s.d >= whole_.separation.d && s.lower - s.sag >= least) return;
-    const double most = s.upper + s.sag;
+    const double largest = s.upper + s.sag;
     s.d = std::max(s.d, whole_.separation.d);
     s.sag = std::clamp(s.d - least, 0.0, s.sag);
     s.lower = std::max(s.lower, least + s.sag);
-    s.upper = std::max(s.d, most - s.sag);
+    s.upper = std::max(s.d, largest - s.sag);
     answer.classification = classify(s, thresholds_);
     answer.classification.flags |= part_flags(part_a_, part_b_);
   }
@@ -449,7 +449,7 @@ class RegionStage {
   Result<parallel::Precomputed<std::uint8_t>> convex_parts(
       const std::vector<std::size_t>& some) const {
     // Dents that do not separate regions: the touch gap bridges them.
-    const double slack = std::max(1.0, stage_.pair_tolerances.least_touch_gap() / 4);
+    const double slack = std::max(1.0, stage_.pair_tolerances.min_touch_gap() / 4);
     const auto& unique = evaluated_.list.unique;
     parallel::Precomputed<std::uint8_t> convex(unique.size());
     const Status status = convex.fill_by_weight(
@@ -501,9 +501,9 @@ class RegionStage {
   /// Whether a pair needs trees: small parts that only touch are traversed faster than a tree is
   /// built.
   [[nodiscard]] bool needs_bvhs(std::size_t i) const {
-    constexpr std::size_t kMostTrianglesWithoutBvh = 512;
+    constexpr std::size_t kMaxTrianglesWithoutBvh = 512;
     return candidates_[i].evaluation.answer.separation.interiors_meet ||
-           work_.triangles(i) > kMostTrianglesWithoutBvh;
+           work_.triangles(i) > kMaxTrianglesWithoutBvh;
   }
 
   const StageInputs& stage_;

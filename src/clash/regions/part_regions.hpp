@@ -17,9 +17,9 @@
 /// The separate regions in which two parts meet or are too near each other.
 namespace strake::clash {
 
-/// How far the regions of a pair of parts are told apart, each more than the one before.
+/// How far the regions of a pair of parts are distinguished, each more than the one before.
 enum class RegionDetail : std::uint8_t {
-  whole,       ///< not at all: not asked for, or there can be only one
+  whole,       ///< not at all: not requested, or there can be only one
   if_several,  ///< where there are several
   each,        ///< even if there is only one: it is listed beside those of other parts
   all,         ///< those within the clearance too: a rule may allow what is worse
@@ -41,7 +41,7 @@ struct PartRegion {
 };
 
 /// Returns the regions of two parts whose result as a whole is known and not NO_HIT: those within
-/// the touch gap where they touch or meet, otherwise (or where `all` are asked for) those within
+/// the touch gap where they touch or meet, otherwise (or where `all` are requested) those within
 /// the clearance too. One of them has the result as a whole. Where there is only one, the list is
 /// empty unless it is to be described. It is absent where too many triangles are near each other to
 /// tell. Parts have trees unless they only touch and are small.
@@ -53,10 +53,10 @@ struct PartRegion {
 [[nodiscard]] double region_reach(const PairOperand& a, const PairOperand& b,
                                   const PartPairResult& whole, const PairTolerances& options);
 
-/// The regions of unique pairs, told apart to one detail.
+/// The regions of unique pairs, distinguished to one detail.
 struct DetailedRegions {
   std::vector<std::vector<PartRegion>> of_unique;
-  std::vector<std::uint8_t> too_near;  ///< whether they cannot be told apart
+  std::vector<std::uint8_t> too_near;  ///< whether they cannot be distinguished
 };
 
 /// The regions of the parts of all pairs. Equal pairs of parts share them only where their pairs of
@@ -70,16 +70,16 @@ class PartRegions {
   /// Returns the regions of a pair; none where the result as a whole says all. `unique` is the
   /// number of its unique pair.
   [[nodiscard]] std::span<const PartRegion> of(std::size_t pair, std::uint32_t unique) const {
-    if (!is_told_apart(pair)) return {};
+    if (!has_regions(pair)) return {};
     return level(pair).of_unique[unique];
   }
   /// Whether the regions of a pair are too near each other: it has one or several.
   [[nodiscard]] bool is_count_uncertain(std::size_t pair, std::uint32_t unique) const {
-    return is_told_apart(pair) && level(pair).too_near[unique] != 0;
+    return has_regions(pair) && level(pair).too_near[unique] != 0;
   }
 
  private:
-  [[nodiscard]] bool is_told_apart(std::size_t pair) const {
+  [[nodiscard]] bool has_regions(std::size_t pair) const {
     return pair < detail_.size() && detail_[pair] != RegionDetail::whole;
   }
   [[nodiscard]] const DetailedRegions& level(std::size_t pair) const {

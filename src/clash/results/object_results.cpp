@@ -59,7 +59,7 @@ int weight(Relation relation) {
 }
 
 /// Returns an upper bound of the least d, without sag: relations too are of the tessellated parts.
-double least_d(const std::vector<Answer>& peers) {
+double min_d(const std::vector<Answer>& peers) {
   double least = std::numeric_limits<double>::infinity();
   for (const Answer& peer : peers) least = std::min(least, peer.of_parts->separation.upper);
   return least;
@@ -70,7 +70,7 @@ double least_d(const std::vector<Answer>& peers) {
 /// among them: the weightiest relation counts, and the witness is of it wherever that is as deep to
 /// a grid unit.
 Pair decisive(const Pair& worst, const std::vector<Answer>& peers) {
-  const double least = least_d(peers);
+  const double least = min_d(peers);
   Pair pair = worst;
   Relation relation = worst.relation;
   bool a_in_b = false, b_in_a = false;
@@ -104,7 +104,7 @@ void widen_bracket(Pair& pair, const std::vector<Answer>& peers) {
     pair.d_lower_mm = std::min(pair.d_lower_mm, peer.pair.d_lower_mm);
     pair.d_upper_mm = std::min(pair.d_upper_mm, peer.pair.d_upper_mm);
   }
-  pair.depth_complete = std::ranges::all_of(peers, [least = least_d(peers)](const Answer& peer) {
+  pair.depth_complete = std::ranges::all_of(peers, [least = min_d(peers)](const Answer& peer) {
     return is_complete(peer.of_parts->separation, least);
   });
   pair.d_upper_mm = std::max(pair.d_mm, pair.d_upper_mm);

@@ -57,8 +57,8 @@ struct PartResults {
 /// Returns the pairs of objects that are not NO_HIT: the results of their parts are aggregated by
 /// whether a rule allows them, class, level and d. Where brackets leave open which of them is the
 /// worst, the weightiest relation counts; then d, witness and part numbers: a function of the set
-/// of results. Whether regions were told apart shows in it only through rules. Pair::first_region
-/// is the number of the pair's first result. Errors: cancelled.
+/// of results. Whether regions were distinguished shows in it only through rules.
+/// Pair::first_region is the number of the pair's first result. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Pair>> aggregate_by_object(const PartResults& results,
                                                             const parallel::Context& context);
 

@@ -20,7 +20,7 @@ constexpr std::size_t kPairsAtOnce = 4096;
 /// Whether a result is reported, and what decides it.
 enum class ReportDecision : std::uint8_t {
   reported,
-  volume_open,  ///< reported, though it may have less in common than asked for
+  volume_open,  ///< reported, though it may have less in common than requested
   by_relation,  ///< not reported
   by_volume,    ///< not reported
 };

@@ -84,7 +84,7 @@ void report_not_compared(const model::Model& model, Report& report) {
 }
 
 Status count_sheets(const ScenePartList& list, const parallel::Context& context, Report& report) {
-  constexpr std::uint8_t kMost = 255;
+  constexpr std::uint8_t kMax = 255;
   report.sheets.assign(report.in_a.size(), 0);
   // Parts are by object: the first one counts for all.
   return parallel::for_each(
@@ -94,7 +94,7 @@ Status count_sheets(const ScenePartList& list, const parallel::Context& context,
         if (first > 0 && list.parts[first - 1].object == object) return;
         std::uint8_t& sheets = report.sheets[object];
         for (std::size_t i = first; i < list.parts.size() && list.parts[i].object == object; ++i)
-          if (list.parts[i].placed.part->kind == geometry::PartKind::sheet && sheets < kMost)
+          if (list.parts[i].placed.part->kind == geometry::PartKind::sheet && sheets < kMax)
             ++sheets;
       });
 }

@@ -49,7 +49,7 @@ Hash128 hash_of(const Pair& pair, const Report& report, std::uint64_t a, std::ui
   hash.add(pair.d_mm);
   for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
     add_place(hash, p);
-  if (report.options.engine.most_regions > 0) {
+  if (report.options.engine.max_regions > 0) {
     hash.add(pair.regions);
     const std::uint32_t listed = pair.regions_listed(report.options);
     for (std::uint32_t r = pair.first_region; r < pair.first_region + listed; ++r)

@@ -25,7 +25,8 @@ namespace strake::clash {
 [[nodiscard]] double contact_distance(const Options& options, float precision_um);
 
 /// Returns the step of a body's numbers in grid units where it is so coarse that a touch cannot be
-/// told from what is a step off; 0 where it is not, and where the contact distance is given.
+/// distinguished from what is a step off; 0 where it is not, and where the contact distance is
+/// given.
 [[nodiscard]] float coarse_step(const Options& options, float precision_um);
 
 }  // namespace strake::clash

@@ -90,11 +90,11 @@ Status check(const Policy& policy, std::size_t objects) {
 }
 
 Status check_narrow_phase(const Policy& policy, const Options& options) {
-  const bool asks = options.reporting.leaves_out() ||
-                    std::ranges::any_of(policy.allowed, [](const Allowed& rule) {
-                      return !rule.relations.empty() || rule.max_volume_mm3;
-                    });
-  if (!asks || options.engine.narrow_phase == NarrowPhase::exact) return {};
+  const bool matters = options.reporting.leaves_out() ||
+                       std::ranges::any_of(policy.allowed, [](const Allowed& rule) {
+                         return !rule.relations.empty() || rule.max_volume_mm3;
+                       });
+  if (!matters || options.engine.narrow_phase == NarrowPhase::exact) return {};
   return Error{ErrorCode::usage,
                "rules by relation and by volume need the exact narrow phase: the baseline does not "
                "tell these",

@@ -112,8 +112,8 @@ struct ClassTotals {
 /// Returns a usage error for a policy whose lists do not have one entry per object.
 [[nodiscard]] Status check(const Policy& policy, std::size_t objects);
 
-/// Returns a usage error where rules or the test ask for relations or volumes, which the baseline
-/// does not tell.
+/// Returns a usage error where rules or the test request relations or volumes, which the baseline
+/// does not show.
 [[nodiscard]] Status check_narrow_phase(const Policy& policy, const Options& options);
 
 /// Returns the cell of two objects in a matrix.

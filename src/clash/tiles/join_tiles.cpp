@@ -118,7 +118,7 @@ void TileJoin::append(Pair pair, std::span<const Region> regions) {
 }
 
 Status TileJoin::check_boxes() const {
-  if (box_pairs_ <= most_unframed_pairs(parts_, {.engine = {.most_pairs = ~std::uint64_t{0}}}))
+  if (box_pairs_ <= max_unframed_pairs(parts_, {.engine = {.max_pairs = ~std::uint64_t{0}}}))
     return {};
   return Error{ErrorCode::input,
                "so many members lie askew in each other's boxes that the search for pairs has to "

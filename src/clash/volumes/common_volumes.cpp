@@ -19,10 +19,10 @@ using geometry::PartKind;
 
 /// The most that the volume of one pair may cost, in triangle pairs and tree nodes: some more than
 /// it takes where each triangle lies over a few of the other part, as on surfaces of like fineness.
-constexpr std::uint64_t kWorkPerTriangle = 16, kLeastWork = 4096;
+constexpr std::uint64_t kWorkPerTriangle = 16, kMinWork = 4096;
 
-std::uint64_t most_work(const Part& a, const Part& b) {
-  return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
+std::uint64_t max_work(const Part& a, const Part& b) {
+  return kMinWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
 }
 
 std::vector<SolidOverlap> overlaps_of_hits(const PartResults& results,
@@ -63,14 +63,14 @@ Result<std::vector<std::optional<geometry::IntersectionVolume>>> measure_overlap
   const Status trees_made = cache.ensure_trees(parts_of(overlaps, list.unique.size()), context);
   if (!trees_made) return trees_made.error();
   const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
-    return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
+    return max_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
   });
   auto measured = parallel::transform(
       context, {.name = "common volumes", .n = overlaps.size(), .order = order},
       [&](std::size_t i) {
         const SolidOverlap& o = overlaps[i];
         return geometry::intersection_volume(cache.treed(*o.a).treed, cache.treed(*o.b).treed,
-                                             most_work(*o.a->placed.part, *o.b->placed.part));
+                                             max_work(*o.a->placed.part, *o.b->placed.part));
       });
   if (!measured) return measured.error();
   for (const auto& volume : *measured) {

@@ -52,16 +52,17 @@ struct TimeParts {
 };
 
 /// Returns a time in UTC that was told so many minutes before it; nothing where there is none such.
-std::optional<std::string> utc_text(const TimeParts& told, int zone) {
+std::optional<std::string> utc_text(const TimeParts& parts, int zone) {
   namespace chrono = std::chrono;
-  const chrono::year_month_day day{chrono::year(told.year),
-                                   chrono::month(static_cast<unsigned>(told.month)),
-                                   chrono::day(static_cast<unsigned>(told.day))};
+  const chrono::year_month_day day{chrono::year(parts.year),
+                                   chrono::month(static_cast<unsigned>(parts.month)),
+                                   chrono::day(static_cast<unsigned>(parts.day))};
   // Seconds that are put in before midnight count as those after it; 24:00 is the next day.
-  if (!day.ok() || told.hours > 24 || told.minutes > 59 || told.seconds > 60) return std::nullopt;
-  if (told.hours == 24 && told.minutes + told.seconds > 0) return std::nullopt;
-  const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(told.hours) +
-                                 chrono::minutes(told.minutes) + chrono::seconds(told.seconds) -
+  if (!day.ok() || parts.hours > 24 || parts.minutes > 59 || parts.seconds > 60)
+    return std::nullopt;
+  if (parts.hours == 24 && parts.minutes + parts.seconds > 0) return std::nullopt;
+  const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(parts.hours) +
+                                 chrono::minutes(parts.minutes) + chrono::seconds(parts.seconds) -
                                  chrono::minutes(zone);
   const chrono::sys_days midnight = chrono::floor<chrono::days>(at);
   const chrono::year_month_day utc(midnight);

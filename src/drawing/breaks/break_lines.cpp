@@ -26,7 +26,7 @@ constexpr double kBeyondMm = 2, kApartMm = 80;
 /// Break lines of two sides that both end so near to the corner between them meet there.
 constexpr double kMeetMm = 2 * kBeyondMm;
 /// Beyond what any sheet is wide, zigzags lie farther apart: at a large scale there were millions.
-constexpr double kMostZigzags = 64;
+constexpr double kMaxZigzags = 64;
 /// A zigzag's length along the line and its height to each side.
 constexpr double kZigzagMm = 3, kZigzagHeightMm = 2;
 /// What is narrower on paper than this is a line, and a break line across it a dot.
@@ -97,7 +97,7 @@ BreakLine break_line(model::ObjectId object, const BreakEnd& a, const BreakEnd& 
   const PaperPoint unit{(b.at.x - a.at.x) / width, (b.at.y - a.at.y) / width};
   const double beyond = std::min(kBeyondMm, width / 2);
   const double size = std::min(1.0, width / (2 * kZigzagMm));
-  const double count = std::min(std::ceil(width / kApartMm), kMostZigzags);
+  const double count = std::min(std::ceil(width / kApartMm), kMaxZigzags);
   BreakLine line{object, {beside(a.at, unit, a.corner ? 0 : -beyond, 0)}};
   for (double k = 0; k < count; ++k) {
     const double middle = width * (k + 0.5) / count, half = size * kZigzagMm / 2;

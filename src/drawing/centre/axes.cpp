@@ -90,7 +90,7 @@ class AxisCover {
 };
 
 /// The lines of an object from left to right: an object may have ten thousand primitives, each of
-/// which asks for those beside it.
+/// which requests those beside it.
 class LinesAcross {
  public:
   explicit LinesAcross(std::span<const Line> lines) {
@@ -118,12 +118,12 @@ class LinesAcross {
 
 class ObjectAxes {
  public:
-  ObjectAxes(std::span<const Line> lines, const OrthographicPaper& paper, double least_diameter_mm,
+  ObjectAxes(std::span<const Line> lines, const OrthographicPaper& paper, double min_diameter_mm,
              Axes2d& out)
       : lines_(lines),
         object_(lines.front().object),
         paper_(paper),
-        least_(least_diameter_mm),
+        least_(min_diameter_mm),
         out_(out) {}
 
   void add(const model::Body& body, const geometry::Primitive& primitive) {
@@ -195,7 +195,7 @@ class ObjectAxes {
     const PaperCurve c{paper_.point(centre_mm), paper_.vector(u_mm), paper_.vector(v_mm)};
     const double area = c.u.x * c.v.y - c.u.y * c.v.x;
     const double square = dot(u_mm, u_mm) / (paper_.scale() * paper_.scale());
-    if (!(std::fabs(area) > kEdgeOn * square)) return seen_edge_on(c, angle, tube);
+    if (!(std::fabs(area) > kEdgeOn * square)) return add_edge_on(c, angle, tube);
     const double ring = tube / std::sqrt(square) * square / std::fabs(area);
     AxisCover cover;
     const double reach = (std::fabs(c.u.x) + std::fabs(c.v.x)) * (1 + ring * 1.05);
@@ -241,7 +241,7 @@ class ObjectAxes {
 
   /// A bend in a plane along the line of sight looks straight, from one of its ends to the other,
   /// or to where it turns back.
-  void seen_edge_on(const PaperCurve& c, double angle, double tube) {
+  void add_edge_on(const PaperCurve& c, double angle, double tube) {
     const PaperPoint a = at(c, 0), b = at(c, angle);
     const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
     if (!(length > 1e-3)) return;
@@ -270,8 +270,8 @@ class ObjectAxes {
 double overhang_mm(double diameter_mm) { return std::clamp(diameter_mm / 4, 1.0, 3.0); }
 
 void find_axes(const model::Model& model, std::span<const Line> lines,
-               const OrthographicPaper& paper, double least_diameter_mm, Axes2d& out) {
-  ObjectAxes axes(lines, paper, least_diameter_mm, out);
+               const OrthographicPaper& paper, double min_diameter_mm, Axes2d& out) {
+  ObjectAxes axes(lines, paper, min_diameter_mm, out);
   const model::Object& object = model.object(lines.front().object);
   for (std::uint32_t b = 0; b < object.body_count; ++b) {
     const model::Body& body = model.bodies[object.first_body + b];

@@ -63,6 +63,6 @@ class OrthographicPaper {
 
 /// Appends the axes of an object that has these lines with ink.
 void find_axes(const model::Model& model, std::span<const Line> lines,
-               const OrthographicPaper& paper, double least_diameter_mm, Axes2d& out);
+               const OrthographicPaper& paper, double min_diameter_mm, Axes2d& out);
 
 }  // namespace strake::drawing

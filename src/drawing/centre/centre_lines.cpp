@@ -29,7 +29,7 @@ constexpr double kInLine = 0.05;
 std::int64_t cell(double value, double width) { return std::llround(value / width + 0.137); }
 
 /// A circle that is seen head-on, and how much of it has ink.
-struct SeenCircle {
+struct VisibleCircle {
   PaperPoint centre;
   double radius = 0;
   model::ObjectId object{};
@@ -47,7 +47,8 @@ double length_on_paper(const Line& line) {
 
 /// Returns the circles that are seen head-on with half of their way or more, the largest about
 /// each centre.
-std::vector<SeenCircle> seen_circles(const NeutralDrawing& drawing, const Ink& ink, double least) {
+std::vector<VisibleCircle> visible_circles(const NeutralDrawing& drawing, const Ink& ink,
+                                           double least) {
   std::vector<double> length(drawing.curves.all.size());
   std::vector<model::ObjectId> object(length.size());
   for (const Line& line : ink.lines) {
@@ -56,7 +57,7 @@ std::vector<SeenCircle> seen_circles(const NeutralDrawing& drawing, const Ink& i
     if (length[curve] == 0) object[curve] = line.object;
     length[curve] += length_on_paper(line);
   }
-  std::vector<SeenCircle> circles;
+  std::vector<VisibleCircle> circles;
   for (std::size_t c = 0; c < length.size(); ++c) {
     const PaperCurve& curve = drawing.curves.all[c];
     const double radius = std::sqrt(curve.u.x * curve.u.x + curve.u.y * curve.u.y);
@@ -64,10 +65,10 @@ std::vector<SeenCircle> seen_circles(const NeutralDrawing& drawing, const Ink& i
     if (2 * radius >= least && is_round(curve) && length[c] >= kHalfTurn * radius)
       circles.push_back({curve.centre, radius, object[c]});
   }
-  const auto place = [](const SeenCircle& c) {
+  const auto place = [](const VisibleCircle& c) {
     return std::tuple(cell(c.centre.x, kInLine), cell(c.centre.y, kInLine));
   };
-  std::ranges::sort(circles, [&](const SeenCircle& a, const SeenCircle& b) {
+  std::ranges::sort(circles, [&](const VisibleCircle& a, const VisibleCircle& b) {
     return std::tuple(place(a), -a.radius, a.object, a.centre.x, a.centre.y) <
            std::tuple(place(b), -b.radius, b.object, b.centre.x, b.centre.y);
   });
@@ -76,7 +77,7 @@ std::vector<SeenCircle> seen_circles(const NeutralDrawing& drawing, const Ink& i
   return circles;
 }
 
-void add_cross(const SeenCircle& circle, std::vector<AxisPart>& parts) {
+void add_cross(const VisibleCircle& circle, std::vector<AxisPart>& parts) {
   const auto& [x, y] = circle.centre;
   const double r = circle.radius, over = overhang_mm(2 * r);
   parts.push_back({{x - r, y}, {x + r, y}, over, over, circle.object, true, 0});
@@ -200,7 +201,7 @@ Result<std::vector<CentreLine>> find_centre_lines(const NeutralDrawing& drawing,
         while (end < ink.lines.size() && ink.lines[end].object == object) ++end;
         Axes2d axes;
         find_axes(model, std::span(ink.lines).subspan(first, end - first), paper,
-                  options.least_diameter_mm, axes);
+                  options.min_diameter_mm, axes);
         if (!axes.parts.empty() || !axes.bends.empty()) out.push_back(std::move(axes));
       });
   if (!some) return some.error();
@@ -209,7 +210,7 @@ Result<std::vector<CentreLine>> find_centre_lines(const NeutralDrawing& drawing,
     std::ranges::move(of_object.parts, std::back_inserter(axes.parts));
     std::ranges::move(of_object.bends, std::back_inserter(axes.bends));
   }
-  for (const SeenCircle& circle : seen_circles(drawing, ink, options.least_diameter_mm))
+  for (const VisibleCircle& circle : visible_circles(drawing, ink, options.min_diameter_mm))
     add_cross(circle, axes.parts);
   end_at_bends(axes);
   join_in_line(axes.parts, found);

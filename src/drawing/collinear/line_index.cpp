@@ -118,8 +118,8 @@ std::uint64_t spread(std::uint64_t bits) {
 }
 
 std::uint64_t whole(double share, unsigned bits) {
-  const double most = static_cast<double>(std::uint64_t{1} << bits);
-  return static_cast<std::uint64_t>(std::clamp(share * most, 0.0, most - 1));
+  const double largest = static_cast<double>(std::uint64_t{1} << bits);
+  return static_cast<std::uint64_t>(std::clamp(share * largest, 0.0, largest - 1));
 }
 
 struct LineExtent {

@@ -57,8 +57,8 @@ Status deal(std::span<const KeyedItem> from, std::span<KeyedItem> to, unsigned s
 Status radix_sort(std::vector<KeyedItem>& items, const parallel::Context& context) {
   const auto highest = parallel::reduce(
       context, {.name = "highest key", .n = items.size(), .grain = kPiece}, std::uint64_t{0},
-      [&](std::uint64_t& most, std::size_t i) { most = std::max(most, items[i].key); },
-      [](std::uint64_t& into, const std::uint64_t& most) { into = std::max(into, most); });
+      [&](std::uint64_t& largest, std::size_t i) { largest = std::max(largest, items[i].key); },
+      [](std::uint64_t& into, const std::uint64_t& largest) { into = std::max(into, largest); });
   if (!highest) return highest.error();
   const auto bits = static_cast<unsigned>(std::bit_width(*highest));
   if (bits == 0) return {};

@@ -146,7 +146,7 @@ void append_viewport(std::string& out, const EntityHead& head, const Viewport& v
       .number(41, viewport.height)
       .whole(68, number)
       .whole(69, number)
-      .point(12, viewport.looks_at.x, viewport.looks_at.y)
+      .point(12, viewport.target.x, viewport.target.y)
       .point(13, 0, 0)
       .point(14, 10, 10)
       .point(15, 10, 10)

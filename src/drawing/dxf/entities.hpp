@@ -82,7 +82,7 @@ void append_cover(std::string& out, const EntityHead& head, const CoverCorners& 
 struct Viewport {
   PaperPoint centre;             ///< on paper
   double width = 0, height = 0;  ///< on paper, mm
-  PaperPoint looks_at;           ///< the point of model space in its middle
+  PaperPoint target;             ///< the point of model space in its middle
   double height_in_model = 0;
 };
 

@@ -29,9 +29,9 @@ std::string_view spelling(const TakenCharacter& c, std::string_view rest) {
 }
 
 /// Calls `spell` for each character with what precedes and what follows it, and joins what it
-/// returns, up to `most` bytes.
+/// returns, up to `limit` bytes.
 template <class Spell>
-std::string spelled(std::string_view text, std::size_t most, Spell&& spell) {
+std::string spelled(std::string_view text, std::size_t limit, Spell&& spell) {
   constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
   std::string out;
   std::size_t room = 0;  // the length of what leaves room for the ellipsis
@@ -40,8 +40,8 @@ std::string spelled(std::string_view text, std::size_t most, Spell&& spell) {
     const TakenCharacter c = take_character(text);
     out += spell(before, c, text);
     before = c.code;
-    if (out.size() + kEllipsis.size() <= most) room = out.size();
-    if (out.size() <= most) continue;
+    if (out.size() + kEllipsis.size() <= limit) room = out.size();
+    if (out.size() <= limit) continue;
     out.resize(room);
     out += kEllipsis;
     break;
@@ -93,15 +93,15 @@ Groups& Groups::point_in_space(int code, double x, double y) {
   return point(code, x, y).whole(code + 20, 0);
 }
 
-std::string value_text(std::string_view text, std::size_t most) {
-  return spelled(text, most, [](std::uint32_t, const TakenCharacter& c, std::string_view rest) {
+std::string value_text(std::string_view text, std::size_t limit) {
+  return spelled(text, limit, [](std::uint32_t, const TakenCharacter& c, std::string_view rest) {
     return spelling(c, rest);
   });
 }
 
 std::string shown_text(std::string_view text) {
   // "%%%" is one percent sign; alone it is itself.
-  return spelled(text, kMostOfText,
+  return spelled(text, kMaxOfText,
                  [](std::uint32_t before, const TakenCharacter& c, std::string_view rest) {
                    const bool doubled = c.code == '%' && (before == '%' || rest.starts_with('%'));
                    return doubled ? std::string_view("%%%") : spelling(c, rest);

@@ -34,14 +34,14 @@ class Groups {
 };
 
 /// The most bytes of a text in extended data.
-inline constexpr std::size_t kMostOfData = 255;
+inline constexpr std::size_t kMaxOfData = 255;
 /// The most bytes of any other text, so that no program finds a line too long.
-inline constexpr std::size_t kMostOfText = 2000;
+inline constexpr std::size_t kMaxOfText = 2000;
 
 /// Returns a text that reads back as itself from one line of a file: what is no printable
 /// character is U+FFFD, '^' and the backslash of "\U+" and "\M+" are written as readers unescape
-/// them. What is longer than `most` bytes is cut and ends in an ellipsis.
-[[nodiscard]] std::string value_text(std::string_view text, std::size_t most);
+/// them. What is longer than `limit` bytes is cut and ends in an ellipsis.
+[[nodiscard]] std::string value_text(std::string_view text, std::size_t limit);
 
 /// Returns value_text() of what TEXT shows as this text: the percent signs of "%%" are no commands.
 [[nodiscard]] std::string shown_text(std::string_view text);

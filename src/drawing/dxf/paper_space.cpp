@@ -19,11 +19,11 @@ PaperSpace::PaperSpace(const PaperSize& size, std::span<const LayerStyle> layers
                   {middle, size.width_mm, size.height_mm, middle, size.height_mm}, viewports_++);
 }
 
-void PaperSpace::add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale) {
+void PaperSpace::add_viewport(const PaperFrame& window, const PaperPoint& target, double scale) {
   const double width = window.right - window.left, height = window.bottom - window.top;
   append_viewport(text_, head(viewport_layer_),
                   {up({(window.left + window.right) / 2, (window.top + window.bottom) / 2}), width,
-                   height, looks_at, height * scale},
+                   height, target, height * scale},
                   viewports_++);
 }
 

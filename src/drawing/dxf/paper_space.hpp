@@ -26,7 +26,7 @@ class PaperSpace {
   /// Gives what is added from now on a pen of its own; none: that of its layer.
   void use_pen(std::optional<EntityPen> pen) { pen_ = pen; }
 
-  void add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale);
+  void add_viewport(const PaperFrame& window, const PaperPoint& target, double scale);
   /// Points joined by straight lines; closed when the last is the first.
   void add_lines(std::size_t layer, std::span<const PaperPoint> points);
   void add_filled(std::size_t layer, std::span<const PaperPoint> points);

@@ -15,8 +15,8 @@ namespace {
 
 /// Returns what of a name may stand in that of a layer.
 std::string fit_for_layer(std::string_view name) {
-  constexpr std::size_t kMostBytes = 100;
-  std::string fit = value_text(name, kMostBytes);
+  constexpr std::size_t kMaxBytes = 100;
+  std::string fit = value_text(name, kMaxBytes);
   // Programs take upper and lower case for the same.
   for (char& c : fit) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -39,7 +39,7 @@ LayerStyle styled_layer(const LayerStyle& usual, ViewLayer layer, const Ink& ink
                                  *ink.styles, number, ink.pens.edge);
   const std::string label = style_label(*ink.styles, number);
   return {.name = fit_for_layer(label) + "_" + usual.name,
-          .description = usual.description + ", " + value_text(label, kMostOfData / 2),
+          .description = usual.description + ", " + value_text(label, kMaxOfData / 2),
           .width_mm = pen.width_mm,
           .dash_mm = pen.dash_mm,
           .color = pen.color,

@@ -117,7 +117,7 @@ std::string object_data(const model::Object& object, const model::Model& model) 
   groups.text(1001, kApplication);
   for (const std::string_view value : {std::string_view(object.id), std::string_view(object.name),
                                        std::string_view(model.files[object.file].label)})
-    groups.text(1000, value_text(value, kMostOfData));
+    groups.text(1000, value_text(value, kMaxOfData));
   return data;
 }
 
@@ -190,7 +190,7 @@ Result<SortedLines> sorted_lines(const Ink& ink, const StyleLayers& style_layers
       const bool plain = part.style == ObjectStyles::kPlain;
       const std::size_t number =
           plain ? layer : style_layers[part.style - 1].at(layer).value_or(layer);
-      // Dashes of hidden lines fit each line, and so do those that a style asks for.
+      // Dashes of hidden lines fit each line, and so do those that a style requests.
       const bool fit = !plain || is_hidden_layer(layer);
       for_each_object(std::span<const Line* const>(part.lines),
                       [&](std::span<const Line* const> lines) {

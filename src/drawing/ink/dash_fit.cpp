@@ -35,7 +35,7 @@ std::vector<double> pen_dashes(std::span<const double> widths, double pen_mm) {
 }
 
 double shortest_dashed(std::span<const double> dash_mm) {
-  return dash_mm.empty() ? 0 : kLeastStretch * (period_of(dash_mm) + dash_mm.front());
+  return dash_mm.empty() ? 0 : kMinStretch * (period_of(dash_mm) + dash_mm.front());
 }
 
 double fitted_stretch(double length_mm, DashEnds ends, std::span<const double> dash_mm) {
@@ -45,11 +45,11 @@ double fitted_stretch(double length_mm, DashEnds ends, std::span<const double> d
   const double step = ends == DashEnds::centred ? 2 : 1;
   const double first = dash_mm.front(), period = period_of(dash_mm);
   const double end = closed ? 0 : first;
-  const double most = step * std::floor((length_mm / kLeastStretch - end) / (step * period));
-  if (!(most >= (closed ? 2 : step))) return 0;
-  const double least = std::min(closed ? kDashesOfCircle : step, most);
+  const double largest = step * std::floor((length_mm / kMinStretch - end) / (step * period));
+  if (!(largest >= (closed ? 2 : step))) return 0;
+  const double least = std::min(closed ? kDashesOfCircle : step, largest);
   const double periods =
-      std::clamp(step * std::round((length_mm - end) / (step * period)), least, most);
+      std::clamp(step * std::round((length_mm - end) / (step * period)), least, largest);
   const double stretch = length_mm / (periods * period + end);
   return rounded_within(stretch, 0.1 * first * stretch / (periods * period + end));
 }

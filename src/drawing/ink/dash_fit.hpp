@@ -12,7 +12,7 @@
 namespace strake::drawing {
 
 /// A pattern may be pressed together to this share of its lengths, so that a short line has a gap.
-inline constexpr double kLeastStretch = 0.4;
+inline constexpr double kMinStretch = 0.4;
 
 /// How a stroke ends, as far as its dashes bear on it.
 enum class DashEnds : std::uint8_t {

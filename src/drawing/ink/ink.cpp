@@ -67,12 +67,12 @@ class Density {
  private:
   /// Narrows the part of a line, which runs `step` from `at`, to what lies on the sheet; `from` is
   /// greater than `to` where nothing does.
-  static void keep_between(double at, double step, double most, double& from, double& to) {
+  static void keep_between(double at, double step, double limit, double& from, double& to) {
     if (step == 0) {
-      if (at < 0 || at > most) to = -1;
+      if (at < 0 || at > limit) to = -1;
       return;
     }
-    const double near = -at / step, far = (most - at) / step;
+    const double near = -at / step, far = (limit - at) / step;
     from = std::max(from, std::min(near, far));
     to = std::min(to, std::max(near, far));
   }
@@ -102,7 +102,7 @@ constexpr std::array<Pens, 5> kLineGroups{{
 }};
 
 /// The largest fraction of the paper that visible lines may blacken where they are.
-constexpr double kMostBlackened = 0.35;
+constexpr double kMaxBlackened = 0.35;
 
 /// Returns whether a sheet is larger than an A2, and may have the widest group.
 bool is_large(const Sheet& sheet) {
@@ -239,14 +239,14 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
 
 Result<Pens> choose_pens(const NeutralDrawing& drawing, const parallel::Context& context) {
   // Each block of lines has squares of its own, so that there are few, and long ones.
-  constexpr std::size_t kMostBlocks = 32;
+  constexpr std::size_t kMaxBlocks = 32;
   const std::size_t lines = drawing.lines.size();
   const Density density(drawing.sheet);
   const auto lengths = parallel::reduce(
       context,
       {.name = "density of lines",
        .n = lines,
-       .grain = std::max(kLinesPerRun, (lines + kMostBlocks - 1) / kMostBlocks)},
+       .grain = std::max(kLinesPerRun, (lines + kMaxBlocks - 1) / kMaxBlocks)},
       density.none(),
       [&](Density::Lengths& of_block, std::size_t i) {
         const Line& line = drawing.lines[i];
@@ -260,7 +260,7 @@ Result<Pens> choose_pens(const NeutralDrawing& drawing, const parallel::Context&
   const double per_mm = density.along_lines(*lengths);
   const auto groups = std::span(kLineGroups).subspan(is_large(drawing.sheet) ? 0 : 1);
   for (const Pens& pens : groups)
-    if (per_mm * pens.edge <= kMostBlackened) return pens;
+    if (per_mm * pens.edge <= kMaxBlackened) return pens;
   return groups.back();
 }
 

@@ -90,15 +90,15 @@ class LaidLines {
   }
 
   /// Calls visit(number) for the segments, counted as they were added, that may lie beside a line,
-  /// each once and of no cell more than the last `most`, until it returns false. Each query has
+  /// each once and of no cell more than the last `limit`, until it returns false. Each query has
   /// another number.
   template <class Visit>
-  void near(const PlaneSegment& line, std::uint32_t query, std::size_t most, Visit&& visit) {
+  void near(const PlaneSegment& line, std::uint32_t query, std::size_t limit, Visit&& visit) {
     bool goes_on = true;
     cells_.along(line, line.reach + reach_, [&](std::size_t cell) {
-      std::size_t seen = 0;
-      for (std::uint32_t e = first_[cell]; e != kNone && goes_on && seen < most;
-           e = entries_[e].next, ++seen) {
+      std::size_t visited = 0;
+      for (std::uint32_t e = first_[cell]; e != kNone && goes_on && visited < limit;
+           e = entries_[e].next, ++visited) {
         const std::uint32_t number = entries_[e].segment;
         if (last_query_[number] == query) continue;
         last_query_[number] = query;
@@ -108,10 +108,10 @@ class LaidLines {
   }
 
   /// Appends the intervals of a line that run along those that are drawn already, of no cell more
-  /// than the last `most`.
+  /// than the last `limit`.
   void find(const PlaneSegment& line, std::uint32_t query, std::vector<ParamInterval>& covers,
-            std::size_t most = std::numeric_limits<std::size_t>::max()) {
-    near(line, query, most, [&](std::uint32_t number) {
+            std::size_t limit = std::numeric_limits<std::size_t>::max()) {
+    near(line, query, limit, [&](std::uint32_t number) {
       if (const auto interval = covered(line, segments_[number], rule_))
         covers.push_back(*interval);
       return true;

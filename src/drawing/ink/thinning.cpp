@@ -25,9 +25,9 @@ namespace strake::drawing {
 
 namespace {
 
-/// A line asks for so many others of a cell at most, which are any of them. In a patch as dense as
+/// A line tests so many others of a cell at most, which are any of them. In a patch as dense as
 /// that, lines on both sides are among these but for a few lines at its rim.
-constexpr std::size_t kMostOfCell = 256;
+constexpr std::size_t kMaxOfCell = 256;
 
 /// Returns whether a line may be left out: hatches have a spacing of their own, and the outline of
 /// a cut is what a section is for.
@@ -85,7 +85,7 @@ std::vector<ParamInterval> common(std::span<const ParamInterval> a,
 }
 
 /// A visible line of an object.
-struct SeenLine {
+struct InkedLine {
   PlaneSegment flat;
   std::uint32_t number = 0;
   bool stays = false;
@@ -95,14 +95,14 @@ struct SeenLine {
 /// The lines of one object.
 class ObjectThinner {
  public:
-  ObjectThinner(std::vector<SeenLine>& lines, const LayingRule& rule)
+  ObjectThinner(std::vector<InkedLine>& lines, const LayingRule& rule)
       : lines_(lines), rule_(rule), cells_(flats_of(lines), 2 * spacing_of(lines)) {}
 
   /// Appends the intervals that stay, by number; lines that stay wholly have none.
   void run(const std::stop_token& stop, LineIntervals& out) {
     if (!find_inner(stop)) return;
     LaidLines laid(cells_, rule_.overlap);
-    for (const SeenLine& line : lines_) lay_rims(line, laid);
+    for (const InkedLine& line : lines_) lay_rims(line, laid);
     const std::size_t begin = out.size();
     std::uint32_t query = 0;
     for (const std::size_t i : across()) {
@@ -116,13 +116,15 @@ class ObjectThinner {
   }
 
  private:
-  static std::vector<PlaneSegment> flats_of(std::span<const SeenLine> lines) {
+  static std::vector<PlaneSegment> flats_of(std::span<const InkedLine> lines) {
     std::vector<PlaneSegment> flats;
     flats.reserve(lines.size());
-    for (const SeenLine& line : lines) flats.push_back(line.flat);
+    for (const InkedLine& line : lines) flats.push_back(line.flat);
     return flats;
   }
-  static double spacing_of(std::span<const SeenLine> lines) { return 2 * lines.front().flat.reach; }
+  static double spacing_of(std::span<const InkedLine> lines) {
+    return 2 * lines.front().flat.reach;
+  }
 
   /// Finds the inner intervals of all lines; false where there are none, or `stop` is requested.
   bool find_inner(const std::stop_token& stop) {
@@ -135,7 +137,7 @@ class ObjectThinner {
       if (i % 1024 == 0 && stop.stop_requested()) return false;
       if (lines_[i].stays) continue;
       sides.clear();
-      all.near(lines_[i].flat, i, kMostOfCell, [&](std::uint32_t number) {
+      all.near(lines_[i].flat, i, kMaxOfCell, [&](std::uint32_t number) {
         const std::uint32_t k = mixed[number];
         if (k == i) return true;
         const PlaneSegment &line = lines_[i].flat, &other = lines_[k].flat;
@@ -159,7 +161,7 @@ class ObjectThinner {
     keys.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i)
       keys.emplace_back(static_cast<std::uint32_t>((i + 1) * 0x9E3779B97F4A7C15ULL >> 32U), i);
-    if (count > kMostOfCell) std::ranges::sort(keys);
+    if (count > kMaxOfCell) std::ranges::sort(keys);
     std::vector<std::uint32_t> order;
     order.reserve(count);
     for (const auto& [key, i] : keys) order.push_back(i);
@@ -179,7 +181,7 @@ class ObjectThinner {
   }
 
   /// Lays down what of a line is at the rim of what is dense.
-  static void lay_rims(const SeenLine& line, LaidLines& laid) {
+  static void lay_rims(const InkedLine& line, LaidLines& laid) {
     double done = 0;
     for (const ParamInterval& inner : line.inner) {
       if (inner.from > done) laid.add(part_of(line.flat, done, inner.from));
@@ -207,11 +209,11 @@ class ObjectThinner {
   }
 
   /// Lays down what of the inner intervals of a line is not beside what is laid down.
-  void thin(const SeenLine& line, std::uint32_t query, LaidLines& laid, LineIntervals& out) {
+  void thin(const InkedLine& line, std::uint32_t query, LaidLines& laid, LineIntervals& out) {
     covers_.clear();
     // Inner lines that stay were laid down last, and are what it may lie beside; where rims of a
     // scanned surface lie by thousands in a cell, it cannot ask all of them.
-    laid.find(line.flat, query, covers_, kMostOfCell);
+    laid.find(line.flat, query, covers_, kMaxOfCell);
     unite(covers_);
     std::vector<ParamInterval> gone = common(covers_, line.inner);
     const std::size_t first = out.size();
@@ -221,11 +223,11 @@ class ObjectThinner {
         const double from = std::max(out[k].from, inner.from), to = std::min(out[k].to, inner.to);
         if (from < to) laid.add(part_of(line.flat, from, to));
       }
-    // A line of which nothing stays is told by an interval without length.
+    // A line of which nothing stays is reported by an interval without length.
     if (out.size() == first) out.push_back({line.number, true, 0, 0});
   }
 
-  std::vector<SeenLine>& lines_;
+  std::vector<InkedLine>& lines_;
   const LayingRule& rule_;
   LineGrid cells_;
   std::vector<ParamInterval> covers_;
@@ -251,8 +253,8 @@ Result<LineIntervals> thinned_intervals(const std::vector<Line>& lines, const On
                                         const RuleOf& rule_of, const parallel::Context& context) {
   return parallel::collect_with<LineInterval>(
       context, {.name = "dense lines", .n = lines.size(), .grain = 1024},
-      [] { return std::vector<SeenLine>{}; },
-      [&](std::vector<SeenLine>& own, std::size_t first, LineIntervals& out) {
+      [] { return std::vector<InkedLine>{}; },
+      [&](std::vector<InkedLine>& own, std::size_t first, LineIntervals& out) {
         if (first > 0 && lines[first - 1].object == lines[first].object) return;
         own.clear();
         const ThinRule rule = rule_of(lines[first].object);

@@ -117,9 +117,9 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
   if (extent && std::max(extent->width(), extent->height()) < kLargeMm)
     extent = measure->of_all(ExtentMethod::corners, context);
   if (!extent) return extent;
-  if (const auto seen = field_of_view(view, origin))
-    *extent = {std::max(extent->left, seen->left), std::min(extent->right, seen->right),
-               std::max(extent->bottom, seen->bottom), std::min(extent->top, seen->top)};
+  if (const auto field = field_of_view(view, origin))
+    *extent = {std::max(extent->left, field->left), std::min(extent->right, field->right),
+               std::max(extent->bottom, field->bottom), std::min(extent->top, field->top)};
   if (extent->left > extent->right || extent->bottom > extent->top) *extent = {};
   return extent;
 }

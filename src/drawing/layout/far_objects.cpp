@@ -19,7 +19,7 @@ namespace {
 constexpr double kShrinks = 2.5;
 
 /// Returns how many of so many boxes may be far.
-std::size_t most_far(std::size_t boxes) {
+std::size_t max_far(std::size_t boxes) {
   constexpr std::size_t kFew = 10, kFewOf = 5, kPerThousand = 1000;
   return std::max(boxes / kPerThousand, std::min(kFew, boxes / kFewOf));
 }
@@ -50,13 +50,13 @@ class FarthestFirst {
       x.push_back(boxes[b].left / 2 + boxes[b].right / 2);
       y.push_back(boxes[b].bottom / 2 + boxes[b].top / 2);
     }
-    most_ = most_far(order_.size());
-    if (most_ == 0) return;
+    limit_ = max_far(order_.size());
+    if (limit_ == 0) return;
     const double at_x = median(std::move(x)), at_y = median(std::move(y));
     for (auto& [near, b] : order_)
       near = -std::max({at_x - boxes[b].left, boxes[b].right - at_x, at_y - boxes[b].bottom,
                         boxes[b].top - at_y});
-    std::ranges::partial_sort(order_, order_.begin() + static_cast<std::ptrdiff_t>(most_));
+    std::ranges::partial_sort(order_, order_.begin() + static_cast<std::ptrdiff_t>(limit_));
   }
 
   /// Returns how many of the first are far.
@@ -73,9 +73,9 @@ class FarthestFirst {
  private:
   /// Returns the box of all but the first n, for each n that may be far.
   [[nodiscard]] std::vector<PlaneBox> without_the_first() const {
-    std::vector<PlaneBox> rest(most_ + 1, kNoPlaneBox);
-    for (std::size_t n = most_; n < order_.size(); ++n) rest[most_].include(boxes_[at(n)]);
-    for (std::size_t n = most_; n-- > 0;) {
+    std::vector<PlaneBox> rest(limit_ + 1, kNoPlaneBox);
+    for (std::size_t n = limit_; n < order_.size(); ++n) rest[limit_].include(boxes_[at(n)]);
+    for (std::size_t n = limit_; n-- > 0;) {
       rest[n] = rest[n + 1];
       rest[n].include(boxes_[at(n)]);
     }
@@ -90,7 +90,7 @@ class FarthestFirst {
 
   std::span<const PlaneBox> boxes_;
   std::vector<std::pair<double, std::size_t>> order_;  ///< distance, negative, and index
-  std::size_t most_ = 0;
+  std::size_t limit_ = 0;
 };
 
 /// Returns a distance with three digits, or as many as the whole number has: "85 mm", "12.3 m".

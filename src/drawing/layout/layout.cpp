@@ -103,34 +103,36 @@ Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
 /// The counts of a run of lines, which are sorted by object.
 struct Tally {
   std::array<std::uint64_t, kLineStates> count{};
-  std::vector<model::ObjectId> seen;  ///< objects with visible lines, each once in a row
+  std::vector<model::ObjectId> visible_objects;  ///< objects with visible lines, each once in a row
 };
 
 /// Counts the lines of a drawing by state, and makes drawn objects without visible lines on paper
 /// coincident. Errors: cancelled.
 Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
-  const auto see = [](Tally& tally, model::ObjectId object) {
-    if (tally.seen.empty() || tally.seen.back() != object) tally.seen.push_back(object);
+  const auto add_visible = [](Tally& tally, model::ObjectId object) {
+    if (tally.visible_objects.empty() || tally.visible_objects.back() != object)
+      tally.visible_objects.push_back(object);
   };
   const Result<Tally> tally = parallel::reduce(
       context, {.name = "account of lines", .n = drawing.lines.size(), .grain = 65536}, Tally{},
       [&](Tally& partial, std::size_t i) {
         const Line& line = drawing.lines[i];
         ++partial.count[static_cast<std::size_t>(line.state)];
-        if (line.state == LineState::visible) see(partial, line.object);
+        if (line.state == LineState::visible) add_visible(partial, line.object);
       },
       [&](Tally& into, const Tally& partial) {
         for (std::size_t s = 0; s < kLineStates; ++s) into.count[s] += partial.count[s];
-        for (const model::ObjectId object : partial.seen) see(into, object);
+        for (const model::ObjectId object : partial.visible_objects) add_visible(into, object);
       });
   if (!tally) return tally.error();
   for (std::size_t s = 0; s < kLineStates; ++s) drawing.count[s] += tally->count[s];
 
   hlr::Account& account = drawing.account;
-  auto seen = tally->seen.begin();
+  auto visible_objects = tally->visible_objects.begin();
   for (std::uint32_t object = 0; object < account.fates.size(); ++object) {
-    const bool on_paper = seen != tally->seen.end() && model::index(*seen) == object;
-    if (on_paper) ++seen;
+    const bool on_paper =
+        visible_objects != tally->visible_objects.end() && model::index(*visible_objects) == object;
+    if (on_paper) ++visible_objects;
     if (account.fates[object] != hlr::Fate::drawn || on_paper) continue;
     account.fates[object] = hlr::Fate::coincident;
     --account.count[static_cast<std::size_t>(hlr::Fate::drawn)];

@@ -35,7 +35,7 @@ Result<double> side_mm(std::string_view text, std::string_view side) {
   const Result<double> mm = parse_coordinate_mm(side);
   if (!mm) return fault(quoted(side) + " of " + quoted(text) + " is no length of paper");
   const double side_of_paper = rounded_paper(*mm);  // 12 inches are 304.8 mm, whatever doubles say
-  if (!(side_of_paper >= kLeastPaperMm && side_of_paper <= kLargestPaperMm))
+  if (!(side_of_paper >= kMinPaperMm && side_of_paper <= kLargestPaperMm))
     return fault(quoted(side) + " of " + quoted(text) + " is not between 100mm and 20m");
   return side_of_paper;
 }

@@ -22,7 +22,7 @@ inline constexpr std::array<NamedPaper, 5> kNamedPapers{{{"A4", {297, 210}},
                                                          {"A0", {1189, 841}}}};
 
 /// What any sheet measures, along each side.
-inline constexpr double kLeastPaperMm = 100, kLargestPaperMm = 20000;
+inline constexpr double kMinPaperMm = 100, kLargestPaperMm = 20000;
 
 /// Parses "A3" (landscape), "A3 portrait", "A3,portrait" or width x height as "900x420" in
 /// millimetres or "900mm x 42cm". Errors say what would have been right.

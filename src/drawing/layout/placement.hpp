@@ -19,7 +19,7 @@ namespace strake::drawing {
                                       const geometry::Vec3l& origin);
 
 /// Chooses sheet and scale for a box and places it in the middle. Errors: usage, where it does not
-/// fit the paper that was asked for.
+/// fit the paper that was requested.
 [[nodiscard]] Result<Placement> choose_placement(const PlaneBox& box, const geometry::Vec3l& origin,
                                                  const LayoutOptions& options);
 

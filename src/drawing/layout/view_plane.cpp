@@ -99,19 +99,19 @@ double PaperAxes::share_in_model(const Vec3d& a_mm, const Vec3d& b_mm, double t)
 
 ViewPlane::ViewPlane(const PaperAxes& axes, const geometry::Vec3l& origin)
     : axes_(axes), from_(axes.eye ? axes.eye->at : origin) {
-  const PlanePoint p = seen(origin);
+  const PlanePoint p = project(origin);
   x_ = p.x;
   y_ = p.y;
 }
 
 PlanePoint ViewPlane::operator()(const geometry::Vec3l& grid) const {
-  PlanePoint p = seen(grid);
+  PlanePoint p = project(grid);
   p.x -= x_;
   p.y -= y_;
   return p;
 }
 
-PlanePoint ViewPlane::seen(const geometry::Vec3l& grid) const {
+PlanePoint ViewPlane::project(const geometry::Vec3l& grid) const {
   const Vec3d p = geometry::to_mm(grid - from_);
   PlanePoint at{dot(axes_.right, p), dot(axes_.up, p), dot(axes_.toward, p)};
   if (!axes_.eye) return at;

@@ -52,7 +52,7 @@ class ViewPlane {
   [[nodiscard]] PlanePoint operator()(const geometry::Vec3l& grid) const;
 
  private:
-  [[nodiscard]] PlanePoint seen(const geometry::Vec3l& grid) const;
+  [[nodiscard]] PlanePoint project(const geometry::Vec3l& grid) const;
 
   PaperAxes axes_;
   geometry::Vec3l from_;  ///< the eye, or the origin

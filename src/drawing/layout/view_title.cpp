@@ -46,7 +46,7 @@ std::string plane_text(const hlr::Section& section) {
   if (const int axis = axis_of(n); axis >= 0)
     return fmt::format("{} = {}", kAxes.at(static_cast<std::size_t>(axis)),
                        length_text(point[axis]));
-  // The plane goes through a grid point, beside the place that was asked for.
+  // The plane goes through a grid point, beside the place that was requested.
   const Vec3d normal = n.as<double>();
   const double distance = dot(normal, point) / std::sqrt(dot(normal, normal));
   return fmt::format("{},{},{} = {}", n.x, n.y, n.z,

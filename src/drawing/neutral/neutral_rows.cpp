@@ -50,11 +50,11 @@ struct LineExtents {
             middle(model.lo.z, model.hi.z)};
   }
   [[nodiscard]] bool fits_32_bits() const {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();
     if (model.empty()) return true;
     const Vec3l size = model.hi - model.lo;
     // An end lies at most half a size from the middle, or half a unit more.
-    return std::max({size.x, size.y, size.z}) / 2 < kMost && farthest_on_paper <= kMost;
+    return std::max({size.x, size.y, size.z}) / 2 < kMax && farthest_on_paper <= kMax;
   }
 };
 

@@ -60,9 +60,9 @@ std::string to_unicode(const Letterer& letterer) {
       "/CIDSystemInfo <</Registry (Adobe) /Ordering (UCS) /Supplement 0>> def\n"
       "/CMapName /Adobe-Identity-UCS def\n/CMapType 2 def\n"
       "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n";
-  constexpr std::size_t kMostRows = 100;  // that one block may have
-  for (std::size_t i = 0; i < rows.size(); i += kMostRows) {
-    const std::size_t n = std::min(kMostRows, rows.size() - i);
+  constexpr std::size_t kMaxRows = 100;  // that one block may have
+  for (std::size_t i = 0; i < rows.size(); i += kMaxRows) {
+    const std::size_t n = std::min(kMaxRows, rows.size() - i);
     text += fmt::format("{} beginbfchar\n", n);
     for (std::size_t r = i; r < i + n; ++r) text += rows[r];
     text += "endbfchar\n";

@@ -19,13 +19,13 @@ using geometry::kPi;
 /// circle that can be drawn; what is larger, as templates may have it, or no number, has no more.
 int curves_of(const PaperCurve& curve, double turn) {
   constexpr double kErrorOfQuarter = 2.73e-4;
-  constexpr int kMost = 1000;
+  constexpr int kMax = 1000;
   const double radius = axes_of(curve).major;
   int n = std::max(1, static_cast<int>(std::ceil(std::fabs(turn) / (kPi / 2) - 1e-9)));
   for (;; ++n) {
     const double quarters = std::fabs(turn) / n / (kPi / 2);
     const double cube = quarters * quarters * quarters;
-    if (n >= kMost || radius * kErrorOfQuarter * cube * cube <= kPdfCurveErrorMm) return n;
+    if (n >= kMax || radius * kErrorOfQuarter * cube * cube <= kPdfCurveErrorMm) return n;
   }
 }
 

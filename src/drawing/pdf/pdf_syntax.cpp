@@ -55,8 +55,8 @@ void append_pdf_number(std::string& out, double value, int decimals) {
                                            1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   const double scale = kScales.at(static_cast<std::size_t>(decimals));
   // What is no number, or lies off any paper, is written as a number all the same.
-  constexpr double kMost = 9e18;
-  const double units = std::isnan(value) ? 0 : std::clamp(value * scale, -kMost, kMost);
+  constexpr double kMax = 9e18;
+  const double units = std::isnan(value) ? 0 : std::clamp(value * scale, -kMax, kMax);
   append_scaled(out, std::llround(units), decimals);
 }
 

@@ -45,9 +45,9 @@ struct Stream {
 /// Returns a name as what an object is marked with: older programs take strings of 32,767 bytes in
 /// contents, so that longer names end in an ellipsis.
 std::string mark_text(std::string_view name) {
-  constexpr std::size_t kMostBytes = 10000;
-  if (name.size() <= kMostBytes) return pdf_text(name);
-  std::string_view rest = name.substr(0, kMostBytes);
+  constexpr std::size_t kMaxBytes = 10000;
+  if (name.size() <= kMaxBytes) return pdf_text(name);
+  std::string_view rest = name.substr(0, kMaxBytes);
   std::string cut;
   while (!rest.empty()) {
     const TakenCharacter c = take_character(rest);
@@ -224,7 +224,7 @@ class LayerMaker {
 
   void add_visible(const StyledPart& part, const PdfPens& pens) {
     const LinePen pen = pen_of(part, pens, LineState::visible);
-    // Dashes that a style asks for fit each line.
+    // Dashes that a style requests fit each line.
     const bool fits = part.of.style != ObjectStyles::kPlain;
     add(part, pens, std::nullopt,
         {{}, {}, part.of.lines, LineState::visible, fits ? pen.dash_mm : std::vector<double>{}},

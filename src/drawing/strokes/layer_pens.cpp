@@ -62,7 +62,7 @@ LinePen styled_pen(LinePen usual, const Layer& layer, const ObjectStyles& styles
     if (style.line->in_widths)
       for (double& dash : usual.dash_mm) dash = in_whole_steps(dash * usual.width_mm);
   } else {
-    // Dashes are as long as the pen asks for.
+    // Dashes are as long as the pen requests.
     for (double& dash : usual.dash_mm) dash = in_whole_steps(dash * wider);
   }
   return usual;

@@ -95,7 +95,7 @@ class PairSorter {
 
 Error too_many(const parallel::Allowance& allowed) {
   return {ErrorCode::input,
-          "more than " + std::to_string(allowed.most()) + " pairs of boxes meet",
+          "more than " + std::to_string(allowed.limit()) + " pairs of boxes meet",
           {},
           "take fewer objects at one place, or a smaller reach"};
 }
@@ -137,8 +137,8 @@ struct WithinTree {
 
 Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
                                                      const parallel::Context& context,
-                                                     std::uint64_t most) {
-  parallel::Allowance allowance(most);
+                                                     std::uint64_t limit) {
+  parallel::Allowance allowance(limit);
   const WithinTree rule{tree};
   auto pairs = TreeJoin(tree, tree, rule).run("broad phase", context, allowance);
   if (!pairs) return pairs.error();
@@ -148,11 +148,11 @@ Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
 
 Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const BoxItem> items,
                                                                  const parallel::Context& context,
-                                                                 std::uint64_t most) {
+                                                                 std::uint64_t limit) {
   const auto meet = [&](std::uint32_t a, std::uint32_t b) {
     return items[a].box.meets(items[b].box);
   };
-  return all_pairs_that(items, meet, context, most);
+  return all_pairs_that(items, meet, context, limit);
 }
 
 namespace {
@@ -287,10 +287,10 @@ Result<std::vector<Group>> group_by_frame(std::span<const BoxItem> items,
 Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> items,
                                                      const BoxesInFrames& framed,
                                                      const parallel::Context& context,
-                                                     std::uint64_t most) {
+                                                     std::uint64_t limit) {
   const auto groups = group_by_frame(items, framed, context);
   if (!groups) return groups.error();
-  parallel::Allowance allowance(most);
+  parallel::Allowance allowance(limit);
   std::vector<IndexPair> pairs;
   for (std::size_t x = 0; x < groups->size(); ++x)
     for (std::size_t y = x; y < groups->size(); ++y) {
@@ -307,7 +307,7 @@ Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> it
 Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const BoxItem> items,
                                                                  const BoxesInFrames& framed,
                                                                  const parallel::Context& context,
-                                                                 std::uint64_t most) {
+                                                                 std::uint64_t limit) {
   const std::size_t n = framed.frames.size();
   std::vector<FramePair> frames;
   for (const Mat3d& x : framed.frames)
@@ -320,7 +320,7 @@ Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(std::span<const
     return items[a].box.meets(items[b].box) &&
            !(framed.frame[a] <= framed.frame[b] ? parted(a, b) : parted(b, a));
   };
-  return all_pairs_that(items, meet, context, most);
+  return all_pairs_that(items, meet, context, limit);
 }
 
 }  // namespace strake::geometry

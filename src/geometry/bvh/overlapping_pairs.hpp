@@ -30,8 +30,8 @@ template <class Meet>
 [[nodiscard]] Result<std::vector<IndexPair>> all_pairs_that(std::span<const BoxItem> items,
                                                             const Meet& meet,
                                                             const parallel::Context& context,
-                                                            std::uint64_t most) {
-  parallel::Allowance allowance(most);
+                                                            std::uint64_t limit) {
+  parallel::Allowance allowance(limit);
   std::vector<std::uint32_t> in_a, in_b;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].box.empty()) continue;

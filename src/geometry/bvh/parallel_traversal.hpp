@@ -42,16 +42,16 @@ inline constexpr std::size_t kSmallestRound = 8;
 ///
 /// `begin(i)` makes the state of the i-th piece of a round, `run(state, piece)` is called for all
 /// of a round at once, `take(state)` in the order of the pieces; it returns whether to go on.
-/// `most(done)` limits the next round where the results so far show that fewer pieces suffice.
+/// `limit(done)` limits the next round where the results so far show that fewer pieces suffice.
 /// Rounds depend on the number of pieces and on these results alone, and so do the states. Errors:
 /// cancelled.
 template <class Piece, class Begin, class Run, class Take, class Most>
 Status run_in_doubling_rounds(const parallel::Context& context, const std::vector<Piece>& pieces,
                               const Begin& begin, const Run& run, const Take& take,
-                              const Most& most) {
+                              const Most& limit) {
   std::size_t round = kSmallestRound;
   for (std::size_t done = 0; done < pieces.size(); done += round, round *= 2) {
-    round = std::min({round, pieces.size() - done, std::max(kSmallestRound, most(done))});
+    round = std::min({round, pieces.size() - done, std::max(kSmallestRound, limit(done))});
     std::vector<decltype(begin(done))> states;
     states.reserve(round);
     for (std::size_t i = 0; i < round; ++i) states.push_back(begin(i));

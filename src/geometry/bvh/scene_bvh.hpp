@@ -77,22 +77,22 @@ class SceneBvh {
 };
 
 /// Default limit on the number of pairs: 8 bytes each.
-inline constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 32U;
+inline constexpr std::uint64_t kMaxPairs = std::uint64_t{1} << 32U;
 
 /// Returns every pair of items of different owners, one of set A and one of set B, whose closed
 /// boxes share a point: each unordered pair once, ascending.
 ///
 /// n boxes at one place make n(n - 1)/2 pairs, which exceeds memory long before n is large: more
-/// than `most` pairs are an error (input), reported before they are stored.
+/// than `limit` pairs are an error (input), reported before they are stored.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(const SceneBvh& tree,
                                                                    const parallel::Context& context,
-                                                                   std::uint64_t most = kMostPairs);
+                                                                   std::uint64_t limit = kMaxPairs);
 
 /// Returns the same pairs by the nested loop over A x B, flattened into one 64-bit range: the
 /// reference for the tree, and the baseline of its benchmarks.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
     std::span<const BoxItem> items, const parallel::Context& context,
-    std::uint64_t most = kMostPairs);
+    std::uint64_t limit = kMaxPairs);
 
 /// A second box for each item, in one of a few frames: tight for rotated, long and thin objects,
 /// whose boxes along the coordinate axes all overlap.
@@ -108,11 +108,11 @@ struct BoxesInFrames {
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs(std::span<const BoxItem> items,
                                                                    const BoxesInFrames& framed,
                                                                    const parallel::Context& context,
-                                                                   std::uint64_t most = kMostPairs);
+                                                                   std::uint64_t limit = kMaxPairs);
 
 /// Returns the same pairs by the nested loop.
 [[nodiscard]] Result<std::vector<IndexPair>> overlapping_box_pairs_brute_force(
     std::span<const BoxItem> items, const BoxesInFrames& framed, const parallel::Context& context,
-    std::uint64_t most = kMostPairs);
+    std::uint64_t limit = kMaxPairs);
 
 }  // namespace strake::geometry

@@ -99,11 +99,11 @@ class DualTraversal {
   void start(const NodePair& pair) { stack_[size_++] = pair; }
 
   /// `near(node, node)` returns whether to descend; `leaves(leaf, leaf)` returns whether to go on.
-  /// The traversal pauses after `most` node pairs.
+  /// The traversal pauses after `limit` node pairs.
   template <class Near, class Leaves>
-  TraversalEnd run(const Near& near, const Leaves& leaves, std::uint64_t most = kNoLimit) {
-    for (; size_ > 0; --most) {
-      if (most == 0) return TraversalEnd::left_off;
+  TraversalEnd run(const Near& near, const Leaves& leaves, std::uint64_t limit = kNoLimit) {
+    for (; size_ > 0; --limit) {
+      if (limit == 0) return TraversalEnd::left_off;
       const NodePair pair = stack_[--size_];
       const TriangleBvh::Node &na = a_.nodes()[pair.a], &nb = b_.nodes()[pair.b];
       if (!near(na, nb)) continue;

@@ -36,8 +36,8 @@ class RegionFinder {
 
   std::optional<std::vector<ContactRegion>> find(QueryContext& work) {
     const SingleRegionDetail one = options_.one;
-    const auto near = [&](std::uint64_t most) {
-      return near_triangles(a_, b_, {.reach = reach_, .most = most}, work);
+    const auto near = [&](std::uint64_t max_near) {
+      return near_triangles(a_, b_, {.reach = reach_, .limit = max_near}, work);
     };
     std::optional<std::vector<NearTrianglePair>> pairs;
     if (one != SingleRegionDetail::described && is_single_region_affordable(a_.part(), b_.part())) {
@@ -51,7 +51,7 @@ class RegionFinder {
         }
       }
     }
-    if (!pairs) pairs = near(options_.most_pairs);
+    if (!pairs) pairs = near(options_.max_pairs);
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     UnionFind sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
@@ -109,7 +109,7 @@ class RegionFinder {
   }
 
   [[nodiscard]] std::uint64_t few_pairs() const {
-    return std::min(options_.most_pairs,
+    return std::min(options_.max_pairs,
                     kFewPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size()));
   }
 

@@ -34,8 +34,8 @@ struct ContactRegionOptions {
   double distance = 0;          ///< of the two parts, where known: it only selects the method
   bool interiors_meet = false;  ///< as meet() returned
   SingleRegionDetail one = SingleRegionDetail::described;
-  std::uint64_t most_pairs = std::uint64_t{1}
-                             << 22U;  ///< of near triangles, before the search is given up
+  std::uint64_t max_pairs = std::uint64_t{1}
+                            << 22U;  ///< of near triangles, before the search is given up
 };
 
 /// Returns the contact regions of two parts: the connected components of the set of pairs of
@@ -51,7 +51,7 @@ struct ContactRegionOptions {
 /// Distances are compared in double arithmetic and sides a 4096th of a grid unit off the line, so
 /// regions within a grid unit of being one may be either. Two surfaces of one body (its outside and
 /// a cavity) with only its material between them are not joined. Nothing where there are more than
-/// `most_pairs` pairs of near triangles, or where a sample of the triangles, taken in heavy
+/// `max_pairs` pairs of near triangles, or where a sample of the triangles, taken in heavy
 /// traversals, shows about twice as many; an empty list where no surfaces are near: one body far
 /// inside the other.
 [[nodiscard]] std::optional<std::vector<ContactRegion>> contact_regions(

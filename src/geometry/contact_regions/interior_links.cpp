@@ -38,13 +38,13 @@ std::size_t InteriorSegments::join(const ParamLine& line, std::span<const EdgeHi
     const EdgeHit &s = stops[i], &t = stops[i + 1];
     if (!(s.along < t.along) || sets_.joined(s.pair, t.pair)) continue;
     if (!is_inside(line.at((s.along + t.along) / 2))) continue;
-    const std::uint32_t from = first_seen(line.at(s.along), s.pair);
-    joins += sets_.join(from, first_seen(line.at(t.along), t.pair)) ? 1U : 0U;
+    const std::uint32_t from = first_at_line(line.at(s.along), s.pair);
+    joins += sets_.join(from, first_at_line(line.at(t.along), t.pair)) ? 1U : 0U;
   }
   return joins;
 }
 
-std::uint32_t InteriorSegments::first_seen(const Vec3d& from, std::uint32_t pair) const {
+std::uint32_t InteriorSegments::first_at_line(const Vec3d& from, std::uint32_t pair) const {
   const RegionSide& side = near_.side;
   const Corners t = as_doubles(side.other.corners(side.other_of(near_.pairs[pair])));
   const ParamLine line{from, nearest_on_triangle(from, t)};
@@ -131,7 +131,7 @@ class InsideLinks {
     if (known == Known::no)
       known = interior_segments_.is_inside(place(vertex)) ? Known::inside : Known::not_inside;
     if (known == Known::inside)
-      sets_.join(member, interior_segments_.first_seen(line.at(stop.along), stop.pair));
+      sets_.join(member, interior_segments_.first_at_line(line.at(stop.along), stop.pair));
   }
 
   void across_triangle(std::span<const std::uint32_t> pairs) {
@@ -170,7 +170,7 @@ class InsideLinks {
   std::uint32_t first_vertex_;
   QueryContext& work_;
   InteriorSegments interior_segments_;
-  std::vector<Known> inside_;          ///< by vertex: its set's side, where asked for
+  std::vector<Known> inside_;          ///< by vertex: its set's side, where requested
   std::vector<std::uint32_t> starts_;  ///< a pair of each set in a triangle
 };
 

@@ -54,7 +54,7 @@ class InteriorSegments {
 
   /// Returns the pair of an own triangle and the first triangle that a ray from a point of it to
   /// the other triangle of a pair meets.
-  [[nodiscard]] std::uint32_t first_seen(const Vec3d& from, std::uint32_t pair) const;
+  [[nodiscard]] std::uint32_t first_at_line(const Vec3d& from, std::uint32_t pair) const;
 
   [[nodiscard]] bool is_inside(const Vec3d& p) const {
     return solid_.side(on_field_grid(p), work_) == PointSide::inside;

@@ -88,7 +88,7 @@ bool settle(const PairLocalPart& a, const PairLocalPart& b, double squared, Near
 /// Pairs of triangles that are certainly within reach, up to a number.
 struct NearTriangleCollector {
   const PairLocalPart &a, &b;
-  std::size_t most;
+  std::size_t limit;
   double reach;  ///< a square
   QueryContext work = {};
   std::vector<NearTrianglePair> pairs = {};
@@ -96,12 +96,12 @@ struct NearTriangleCollector {
 
   bool operator()(NearTrianglePair pair) {
     if (!settle(a, b, reach, pair, work)) return true;
-    too_many = pairs.size() == most;
+    too_many = pairs.size() == limit;
     if (!too_many) pairs.push_back(pair);
     return !too_many;
   }
   bool take(NearTriangleCollector& piece) {
-    too_many = too_many || piece.too_many || pairs.size() + piece.pairs.size() > most;
+    too_many = too_many || piece.too_many || pairs.size() + piece.pairs.size() > limit;
     if (pairs.empty())
       pairs = std::move(piece.pairs);
     else if (!too_many)
@@ -114,11 +114,11 @@ struct NearTriangleCollector {
 /// says what samples and probes gain.
 constexpr std::size_t kSampledTriangles = 64, kAgree = 8;
 /// Number of triangles below which a scan of all costs little more.
-constexpr std::size_t kLeastSampled = 4 * kSampledTriangles;
+constexpr std::size_t kMinSampled = 4 * kSampledTriangles;
 /// Factor by which the pairs that they stand for have to be too many.
 constexpr std::uint64_t kFarTooMany = 2;
 
-/// How many triangles of `b` are within reach of one of `a`, up to `most`.
+/// How many triangles of `b` are within reach of one of `a`, up to `limit`.
 std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const PairLocalPart& b,
                          const NearTriangleOptions& options, QueryContext& work) {
   const double squared = options.reach * options.reach;
@@ -134,7 +134,7 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
     if (squared_gap(own.box, other.box) > squared) return true;
     ++work.triangle_pairs;
     near += triangles_within(a, b, own, other, {triangle, t}, squared, work) ? 1U : 0U;
-    return near < options.most;
+    return near < options.limit;
   });
   return near;
 }
@@ -145,12 +145,12 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
 bool too_many_by_samples(const PairLocalPart& a, const PairLocalPart& b,
                          const NearTriangleOptions& options, QueryContext& work) {
   const std::vector<std::uint32_t>& order = a.tree().order();
-  if (order.size() < kLeastSampled) return false;
-  const std::uint64_t wanted = kFarTooMany * options.most * kSampledTriangles / order.size() + 1;
-  const NearTriangleOptions each{.reach = options.reach, .most = wanted / kAgree + 1};
+  if (order.size() < kMinSampled) return false;
+  const std::uint64_t wanted = kFarTooMany * options.limit * kSampledTriangles / order.size() + 1;
+  const NearTriangleOptions each{.reach = options.reach, .limit = wanted / kAgree + 1};
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < kSampledTriangles && near < wanted; ++i) {
-    if (near + (kSampledTriangles - i) * each.most < wanted) return false;
+    if (near + (kSampledTriangles - i) * each.limit < wanted) return false;
     near += count_near(a, sample(order, i, kSampledTriangles), b, each, work);
   }
   return near >= wanted;
@@ -160,8 +160,8 @@ bool too_many_by_samples(const PairLocalPart& a, const PairLocalPart& b,
 template <class Settled>
 void gather_from(const PairLocalPart& a, const PairLocalPart& b, NearTriangleCollector& all,
                  QueryContext& work, const Settled& settled) {
-  const auto room = [&] { return all.most - all.pairs.size(); };
-  std::optional<std::size_t> alone;  // how many there were before the walk asked for help
+  const auto room = [&] { return all.limit - all.pairs.size(); };
+  std::optional<std::size_t> alone;  // how many there were before the walk called for help
   adaptive_distance_traversal(
       a, b, all.reach, work, [&] { return NearTriangleCollector{a, b, room(), all.reach}; },
       [&](NearTriangleCollector& piece) {
@@ -228,7 +228,7 @@ std::optional<std::vector<NearTrianglePair>> near_triangles(const PairLocalPart&
                                                             const NearTriangleOptions& options,
                                                             QueryContext& work) {
   const double squared = options.reach * options.reach;
-  NearTriangleCollector all{a, b, options.most, squared};
+  NearTriangleCollector all{a, b, options.limit, squared};
   if (a.has_bvh() && b.has_bvh()) {
     gather_by_trees(options, all, work);
   } else {

@@ -10,8 +10,8 @@
 namespace strake::geometry {
 
 struct NearTriangleOptions {
-  double reach = 0;        ///< grid units
-  std::uint64_t most = 0;  ///< pairs
+  double reach = 0;         ///< grid units
+  std::uint64_t limit = 0;  ///< pairs
 };
 
 /// Whether two prepared triangles, given with their numbers, are no farther apart than the reach,

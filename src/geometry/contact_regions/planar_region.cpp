@@ -86,7 +86,7 @@ class PlanarEnd {
 
  private:
   /// Faces with more corners are left to other methods.
-  static constexpr std::size_t kMostCorners = 512;
+  static constexpr std::size_t kMaxCorners = 512;
 
   [[nodiscard]] bool gather(const DirectedPart& side);
   [[nodiscard]] bool add_faces(const Vec3d& way);
@@ -100,7 +100,7 @@ class PlanarEnd {
   Vec3d shift_;
   const PlaneFrame& plane_;
   std::vector<std::uint8_t> at_top_;  ///< by vertex
-  std::array<PointInPlane, kMostCorners> corners_;
+  std::array<PointInPlane, kMaxCorners> corners_;
   std::size_t count_ = 0;
   double area_ = 0;  ///< twice the area
 };
@@ -118,15 +118,15 @@ struct ConvexOutline {
 };
 
 /// Returns the convex hull by Andrew's monotone chain.
-template <std::size_t kMost>
+template <std::size_t kMax>
 ConvexOutline convex_hull_of(std::span<const PointInPlane> corners) {
-  std::array<PointInPlane, kMost> sorted;
+  std::array<PointInPlane, kMax> sorted;
   const std::span<PointInPlane> points = std::span(sorted).first(corners.size());
   std::ranges::copy(corners, points.begin());
   std::ranges::sort(points, [](const PointInPlane& p, const PointInPlane& q) {
     return p.x != q.x ? p.x < q.x : p.y < q.y;
   });
-  std::array<PointInPlane, 2 * kMost> chain;
+  std::array<PointInPlane, 2 * kMax> chain;
   std::size_t size = 0;
   for (int side = 0; side < 2; ++side) {
     const std::size_t start = size;
@@ -160,7 +160,7 @@ bool PlanarEnd::gather(const DirectedPart& side) {
     const Vec3d p = part_.vertices[v].as<double>();
     const double at = dot(side.way, p);
     if (at >= side.top - plane_.band) {
-      if (count_ == kMostCorners) return false;
+      if (count_ == kMaxCorners) return false;
       corners_[count_++] = plane_.put(p + shift_);
       at_top_[v] = 1;
     } else if (at >= side.top - plane_.reach - 2 * plane_.band) {
@@ -185,7 +185,7 @@ bool PlanarEnd::add_faces(const Vec3d& way) {
 }
 
 bool PlanarEnd::is_convex() const {
-  const ConvexOutline hull = convex_hull_of<kMostCorners>(std::span(corners_).first(count_));
+  const ConvexOutline hull = convex_hull_of<kMaxCorners>(std::span(corners_).first(count_));
   // Neither area nor border alone decides: a hole is small beside the tolerance along the border of
   // a large plate, and a notch adds little to the border. Two small feet near each other have about
   // the border of one.
@@ -262,7 +262,7 @@ using OutlineEdge = PlanarEnd::OutlineEdge;
 
 /// Borders with more near pairs of edges, per edge, are not decided. Two corrugated boxes of 524
 /// triangles end to end take 0.2 ms so, 9 triangle by triangle (decision 0012).
-constexpr std::size_t kMostNearTriangles = 16;
+constexpr std::size_t kMaxNearTriangles = 16;
 
 struct OutlineVertex {
   PointInPlane at;
@@ -356,7 +356,7 @@ bool has_narrow_gap(std::vector<OutlineEdge> rim, double reach) {
   const auto share_corner = [](const OutlineEdge& e, const OutlineEdge& f) {
     return e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to;
   };
-  std::size_t left = kMostNearTriangles * rim.size();
+  std::size_t left = kMaxNearTriangles * rim.size();
   for (std::size_t i = 0; i < rim.size(); ++i)
     for (std::size_t j = i + 1; j < rim.size() && low(rim[j]) <= high(rim[i]) + reach; ++j) {
       if (apart_in_y(rim[i], rim[j]) || share_corner(rim[i], rim[j])) continue;

@@ -353,7 +353,7 @@ class SingleRegionFinder {
     join_with(a_, s, of_b_[t].corner, [&](std::uint32_t beside) { return member(beside, t); });
   }
 
-  /// An edge by its ends; asked for its distance only where it would join anything.
+  /// An edge by its ends; its distance is computed only where it would join anything.
   template <class Member>
   void join_over(const PairLocalPart& view, const std::pair<std::uint32_t, std::uint32_t>& ends,
                  const Corners& other, std::uint32_t own, const Member& member_beside) {

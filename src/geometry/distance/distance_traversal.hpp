@@ -56,12 +56,12 @@ class DistanceTraversal {
   void start(const Entry& entry) { stack_[size_++] = entry; }
 
   /// `visit(NearTrianglePair)` returns whether to go on. `reach` is read anew before each step. The
-  /// traversal pauses after `most` node pairs.
+  /// traversal pauses after `limit` node pairs.
   template <class Visit>
   TraversalEnd run(const double& reach, Visit&& visit,
-                   std::uint64_t most = DualTraversal::kNoLimit) {
-    for (; size_ > 0; --most) {
-      if (most == 0) return TraversalEnd::left_off;
+                   std::uint64_t limit = DualTraversal::kNoLimit) {
+    for (; size_ > 0; --limit) {
+      if (limit == 0) return TraversalEnd::left_off;
       const Entry entry = stack_[--size_];
       if (entry.squared > reach) continue;
       ++work_.node_pairs;
@@ -193,11 +193,11 @@ inline constexpr std::size_t kRotatedEarly = 2048;
 /// gets the states in the order of a sequential traversal and returns whether to go on. Where the
 /// team was stopped some are missing. `settled(state)` is called while the traversal is still
 /// sequential, after node_pairs_before_slabs() node pairs and then each time that the number has
-/// grown fourfold: true ends the walk. `most`: see run_in_doubling_rounds().
+/// grown fourfold: true ends the walk. `limit`: see run_in_doubling_rounds().
 template <class Begin, class Take, class Settled, class Most>
 void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b, double near_enough,
                                  QueryContext& work, const Begin& begin, const Take& take,
-                                 const Settled& settled, const Most& most) {
+                                 const Settled& settled, const Most& limit) {
   using State = decltype(begin());
   const auto charge = [&](State& state) {
     work += state.work;
@@ -244,7 +244,7 @@ void adaptive_distance_traversal(const PairLocalPart& a, const PairLocalPart& b,
         piece.start(entry);
         piece.run(state.reach, state);
       },
-      charge, most);
+      charge, limit);
 }
 
 template <class Begin, class Take, class Settled>

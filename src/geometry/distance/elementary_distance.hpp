@@ -46,10 +46,10 @@ struct SegmentParameters {
   const Vec3d across = cross(along, middle);
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const double most = half[i] * reach[j] + half[j] * reach[i];
+    const double largest = half[i] * reach[j] + half[j] * reach[i];
     const double rounding =
-        1e-12 * (most + std::fabs(along[i] * middle[j]) + std::fabs(along[j] * middle[i]));
-    if (std::fabs(across[k]) > most + rounding) return false;
+        1e-12 * (largest + std::fabs(along[i] * middle[j]) + std::fabs(along[j] * middle[i]));
+    if (std::fabs(across[k]) > largest + rounding) return false;
   }
   return true;
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// Radians: the angle by which a triangle may differ from a rough direction besides the error of
 /// the snap, and the most of both together; half of either for each of two triangles.
-constexpr double kAlike = 0.0224, kMostAlike = 0.25;
+constexpr double kAlike = 0.0224, kMaxAlike = 0.25;
 /// Grid units that the triangles of one level may lie apart: each corner is snapped by up to
 /// sqrt(3)/2.
 constexpr double kLevel = 4;
@@ -36,7 +36,7 @@ struct Facing {
 
   explicit Facing(const Vec3d& n) : normal(n * (1 / length(n))) {}
   Facing(const Corners& t, const Vec3d& n) : Facing(n) {
-    angle = std::min(kMostAlike, kAlike + snap_angle_error(t, n));
+    angle = std::min(kMaxAlike, kAlike + snap_angle_error(t, n));
   }
 };
 
@@ -63,10 +63,10 @@ std::size_t count_parallel(const std::vector<Facing>& facings, const Facing& x) 
 /// Returns the facing with the most others like it.
 std::optional<Facing> commonest(const std::vector<Facing>& facings) {
   std::optional<Facing> best;
-  std::size_t most = 0;
+  std::size_t largest = 0;
   for (const Facing& x : facings)
-    if (const std::size_t count = count_parallel(facings, x); count > most) {
-      most = count;
+    if (const std::size_t count = count_parallel(facings, x); count > largest) {
+      largest = count;
       best = x;
     }
   return best;

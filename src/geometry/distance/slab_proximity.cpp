@@ -42,7 +42,7 @@ struct LowEnd {
   std::vector<std::uint32_t> triangles;  ///< those that come within kRough of it
 };
 
-std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::size_t most) {
+std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::size_t limit) {
   LowEnd end;
   const auto& nodes = view.tree().nodes();
   traverse_nearest_first(
@@ -55,7 +55,7 @@ std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::si
       [&](const TriangleBvh::Node& node) { return height(n, view.box(node.box)) <= level; },
       [&](std::uint32_t t) {
         if (height(n, view, t) <= level) end.triangles.push_back(t);
-        return end.triangles.size() <= most;
+        return end.triangles.size() <= limit;
       });
   if (!all) return std::nullopt;
   return end;
@@ -73,10 +73,10 @@ double reach_of(const PairLocalPart& view) {
 }  // namespace
 
 std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart& b,
-                                    const Vec3d& normal, std::size_t most) {
-  auto above = low_end(a, normal, most);
+                                    const Vec3d& normal, std::size_t limit) {
+  auto above = low_end(a, normal, limit);
   if (!above) return std::nullopt;
-  auto below = low_end(b, -normal, most);
+  auto below = low_end(b, -normal, limit);
   if (!below) return std::nullopt;
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * (reach_of(a) + reach_of(b));
   const double apart = above->least + below->least + kRough;
@@ -88,9 +88,9 @@ namespace {
 
 /// For larger parts a tree visits fewer. With these two limits a turned plant of 100,000 objects
 /// takes 4.7 to 5.1 CPU s; with trees instead it took 5.8 to 6.1 (decision 0023).
-constexpr std::size_t kMostSlabTriangles = 1024;
+constexpr std::size_t kMaxSlabTriangles = 1024;
 /// Most pairs of triangles.
-constexpr std::size_t kMostSlabPairs = 4096;
+constexpr std::size_t kMaxSlabPairs = 4096;
 
 /// A triangle at an end of the slab, with its extent in the plane of the slab.
 struct EndTriangle {
@@ -181,18 +181,18 @@ struct Ends {
 
 SlabProximity slab_proximity(const PlacedPart& a, const PlacedPart& b, const Vec3d& normal,
                              double distance, QueryContext& work) {
-  if (a.part->triangles.size() + b.part->triangles.size() > kMostSlabTriangles) return {};
+  if (a.part->triangles.size() + b.part->triangles.size() > kMaxSlabTriangles) return {};
   const PairLocalPart x({a, nullptr}, {}), y({b, nullptr}, b.origin - a.origin);
   const SlabHeights heights(x, y, normal, distance);
   const SlabPlane plane(normal);
   const Ends ends_x(heights.a, heights.level_a), ends_y(heights.b, heights.level_b);
   SlabSearch search(x, y, distance, work);
-  if (ends_x.lying.size() * ends_y.lying.size() > kMostSlabPairs) return {};
+  if (ends_x.lying.size() * ends_y.lying.size() > kMaxSlabPairs) return {};
   const EndTriangles lying_x = plane.put(x, ends_x.lying), lying_y = plane.put(y, ends_y.lying);
   if (auto near = search.first(lying_x, lying_y)) return {std::move(near), true};
   const std::size_t all_x = ends_x.lying.size() + ends_x.others.size();
   const std::size_t all_y = ends_y.lying.size() + ends_y.others.size();
-  if (all_x * all_y > kMostSlabPairs) return {};
+  if (all_x * all_y > kMaxSlabPairs) return {};
   const EndTriangles others_x = plane.put(x, ends_x.others), others_y = plane.put(y, ends_y.others);
   for (const auto& [p, q] : {std::pair(&lying_x, &others_y), std::pair(&others_x, &lying_y),
                              std::pair(&others_x, &others_y)})

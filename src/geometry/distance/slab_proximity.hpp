@@ -80,10 +80,11 @@ struct SlabFaces {
   double beyond = 0;  ///< grid units: a pair with a triangle not listed is farther apart, certainly
 };
 
-/// Returns the triangles at the ends of a slab; nothing where one of the parts has more than `most`
-/// of them. `normal`: unit, from b to a. The cost is that of the triangles found in the trees.
+/// Returns the triangles at the ends of a slab; nothing where one of the parts has more than
+/// `limit` of them. `normal`: unit, from b to a. The cost is that of the triangles found in the
+/// trees.
 [[nodiscard]] std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart& b,
-                                                  const Vec3d& normal, std::size_t most);
+                                                  const Vec3d& normal, std::size_t limit);
 
 /// The proximity of two parts across a slab.
 struct SlabProximity {

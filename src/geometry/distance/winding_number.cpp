@@ -17,7 +17,7 @@ constexpr double kNoHit = 1e300;
 
 /// The least share of odd directions (those that meet an odd number of triangles) from a point
 /// inside: objects in a body or walls across it make some of them even, as in a bore all are.
-constexpr double kLeastOdd = 0.25;
+constexpr double kMinOdd = 0.25;
 
 /// Returns half the solid angle of a triangle as seen from the origin (A. van Oosterom and J.
 /// Strackee, 1983).
@@ -198,9 +198,9 @@ int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
   return met;
 }
 
-/// Returns the share of the directions from a point that lead out; nothing where it is `most` or
+/// Returns the share of the directions from a point that lead out; nothing where it is `limit` or
 /// more, or where too few meet an odd number of triangles. That often shows long before the last.
-std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, double most) const {
+std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, double limit) const {
   // The same in three dimensions, for evenly distributed directions of points in a ball.
   constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
                    kStepZ = 0.5497004779019703;
@@ -214,8 +214,8 @@ std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, doub
     out += met == 0 ? 1 : 0;
     odd += met % 2;
     ++visited;
-    if (static_cast<double>(out) / rays >= most) return std::nullopt;
-    if (static_cast<double>(odd + rays - visited) / rays < kLeastOdd) return std::nullopt;
+    if (static_cast<double>(out) / rays >= limit) return std::nullopt;
+    if (static_cast<double>(odd + rays - visited) / rays < kMinOdd) return std::nullopt;
   }
   return static_cast<double>(out) / rays;
 }
@@ -238,11 +238,11 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   if (one_way_) return out_of(at).has_value();
   constexpr int kRays = 256;
   // Between a fin and the surface that it stands on a quarter of the directions leads out.
-  constexpr double kMostOut = 0.2;
-  return share_out(at, kRays, kMostOut).has_value();
+  constexpr double kMaxOut = 0.2;
+  return share_out(at, kRays, kMaxOut).has_value();
 }
 
-double WindingNumber::openness(double most) const {
+double WindingNumber::openness(double limit) const {
   constexpr int kSamples = 48;
   constexpr double kHalf = 0.5;
   // Multiples of these numbers are evenly distributed in 0 to 1, also jointly (R. Kronecker).
@@ -251,9 +251,9 @@ double WindingNumber::openness(double most) const {
   const Node& all = nodes_.front();
   // Where so much of the area does not cancel, as much is missing, and half of its directions lead
   // out.
-  if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
+  if (one_way_ && length(all.area) > 2 * limit * all.size) return 1;
   double out = 0, passed = 0;
-  int inside = 0, sample = 0, looks_left = 2 * kSamples;
+  int inside = 0, sample = 0, samples_left = 2 * kSamples;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
     const Vec3d &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
     const Vec3d normal = cross(b - a, c - a);
@@ -266,9 +266,9 @@ double WindingNumber::openness(double most) const {
       for (const Vec3d& way : {back, back * -1.0}) {
         // Whatever the others are, they are too few inside, or too much leads out: shares of rays
         // are never negative.
-        if (2 * (inside + looks_left) < kSamples) return 1;
-        if (!one_way_ && out > most * (inside + looks_left)) return 1;
-        --looks_left;
+        if (2 * (inside + samples_left) < kSamples) return 1;
+        if (!one_way_ && out > limit * (inside + samples_left)) return 1;
+        --samples_left;
         const auto hit = first_hit(on, way);
         if (!hit) continue;
         const auto leads_out = out_of(on + way * (*hit / 2));

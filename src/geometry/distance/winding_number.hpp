@@ -40,8 +40,8 @@ class WindingNumber {
   /// Returns the share of directions that lead out of the surface, on average over its interior:
   /// little for a body with a gap in a seam or a missing face, an eighth and more for a tank
   /// without its lid. 1 where it surrounds almost nothing, as a deck or a shallow tray, and where
-  /// the share is certainly more than `most`.
-  [[nodiscard]] double openness(double most) const;
+  /// the share is certainly more than `limit`.
+  [[nodiscard]] double openness(double limit) const;
 
   /// Whether a surface that is not very open surrounds a point.
   [[nodiscard]] bool surrounds(const Vec3d& at) const;
@@ -60,7 +60,7 @@ class WindingNumber {
   template <class Visit>
   void along(const Vec3d& from, const Vec3d& way, const double& far, const Visit& visit) const;
   [[nodiscard]] int crossings(const Vec3d& from, const Vec3d& way) const;
-  [[nodiscard]] std::optional<double> share_out(const Vec3d& from, int rays, double most) const;
+  [[nodiscard]] std::optional<double> share_out(const Vec3d& from, int rays, double limit) const;
   [[nodiscard]] std::optional<double> out_of(const Vec3d& at) const;
   void split(std::size_t node);
   void measure(Node& node) const;

@@ -27,11 +27,11 @@ constexpr std::size_t kMaxVerticesTried = 128;
 /// Greatest width of a bracket relative to the depth: no more than a rotation may change it.
 constexpr double kFinely = 1e-3;
 /// The edges of a body with more of them are not tried.
-constexpr std::size_t kMostEdgesTried = 2048;
+constexpr std::size_t kMaxEdgesTried = 2048;
 /// Maximum number of points from which a search climbs.
-constexpr std::size_t kMostDeepest = 16;
+constexpr std::size_t kMaxDeepest = 16;
 /// Grid units: a step off a surface that the exact point location can resolve.
-constexpr double kLeastMove = 1.0 / 64;
+constexpr double kMinMove = 1.0 / 64;
 /// Vertex displacements no longer than this separate bodies that the snap pushed into each other:
 /// it moves either face by less than one unit, and the corner of three perpendicular faces moves
 /// off each by about half of its displacement. Narrow enough for a bracket.
@@ -70,7 +70,7 @@ class Candidates {
     });
     std::vector<Vec3d> deepest;
     for (const TestedPoint& f : all) {
-      if (deepest.size() == kMostDeepest) break;
+      if (deepest.size() == kMaxDeepest) break;
       const bool beside = std::ranges::any_of(
           deepest, [&](const Vec3d& p) { return length(p - f.at) < 2 * f.depth; });
       if (!beside) deepest.push_back(f.at);
@@ -81,7 +81,7 @@ class Candidates {
   /// Prefers a point almost as deep as the best, at a better position, with the depth that
   /// depth_at() found.
   void prefer(const Vec3d& p, double depth) {
-    if (depth >= best_ * (1 - 1e-6) - 4 * kLeastMove) point_ = on_field_grid(p);
+    if (depth >= best_ * (1 - 1e-6) - 4 * kMinMove) point_ = on_field_grid(p);
   }
 
   void store(Depth& depth) const {
@@ -117,13 +117,13 @@ void bracket_by_programs(const HalfSpaceProgram& spaces, Candidates& candidates,
   const auto at_middle = candidates.depth_at(middle.x);
   const auto at_corner = candidates.depth_at((a_deeper ? in_a : in_b).x);
   if (at_middle) candidates.prefer(middle.x, *at_middle);
-  if (at_corner && at_middle && middle.r > kLeastMove) return;
+  if (at_corner && at_middle && middle.r > kMinMove) return;
   // Where the deepest points lie on the surface of the other body, as on the flat of a pipe that
   // stands into a box, their middle does too: then aim for the middle of the whole common part.
-  constexpr std::array<double, 5> kMoves{kLeastMove, 1, 4, 16, 64};
+  constexpr std::array<double, 5> kMoves{kMinMove, 1, 4, 16, 64};
   const InscribedBall aim =
       middle.r > kMoves.back() ? middle : spaces.centre_of_deepest_ball(a_deeper, 0);
-  if (!(middle.r > kLeastMove)) middle = spaces.centre_on_surface(a_deeper, deepest);
+  if (!(middle.r > kMinMove)) middle = spaces.centre_on_surface(a_deeper, deepest);
   for (const InscribedBall* s : {&in_a, &in_b, &std::as_const(middle)})
     for (const double move : kMoves) {
       if (!(aim.r > move)) break;
@@ -171,7 +171,7 @@ std::optional<Vec3d> outward(const Part& part, std::uint32_t triangle) {
 /// through the other may have no vertex there.
 void try_edges(const DistanceField& of, const DistanceField& in, Candidates& candidates) {
   const auto& edges = of.part().edges;
-  if (edges.size() > kMostEdgesTried) return;
+  if (edges.size() > kMaxEdgesTried) return;
   const Box3d room = in.box();
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const Vec3d p = of.common(of.part().vertices[edges[e].v0].as<double>());
@@ -192,7 +192,7 @@ void try_edges(const DistanceField& of, const DistanceField& in, Candidates& can
     Vec3d inward;
     for (std::uint32_t i = edges[e].first_triangle; i < edges[e + 1].first_triangle; ++i)
       if (const auto n = outward(of.part(), of.part().edge_triangles[i])) inward = inward - *n;
-    candidates.depth_at(middle + inward * kLeastMove, of, in);
+    candidates.depth_at(middle + inward * kMinMove, of, in);
   }
 }
 
@@ -362,8 +362,8 @@ class Centring {
     return true;
   }
 
-  /// Where half-spaces do not tell, as in a profile: to the middle of the common box, or of the box
-  /// that counts, along each axis along which that is as deep.
+  /// Where half-spaces do not decide, as in a profile: to the middle of the common box, or of the
+  /// box that counts, along each axis along which that is as deep.
   void move_along_axes(Depth& depth) const {
     for (const Vec3d& axis : a_.planes()->axes) {
       const double way = middle_along(axis) - dot(axis, depth.point);

@@ -18,11 +18,11 @@ namespace {
 
 /// With this limit and the next two no pair of geometry_deep_pairs_property_test comes out short by
 /// more than 1 % or 0.05 mm (decision 0037).
-constexpr int kMostClimbSteps = 24;
+constexpr int kMaxClimbSteps = 24;
 /// Maximum number of triangles of one part within reach of a step that enter the program at once.
-constexpr std::size_t kMostNear = 64;
+constexpr std::size_t kMaxNear = 64;
 /// If there are more, those that stop a step are added one by one, up to this many.
-constexpr int kMostCuts = 48;
+constexpr int kMaxCuts = 48;
 /// Grid units that a point keeps off the surface that it must not leave: it is still inside when it
 /// is rounded to the field grid.
 constexpr double kInset = 1.0 / 1024;
@@ -60,7 +60,7 @@ bool find_near(const DistanceField& field, const Vec3d& p, double reach,
     if (height - triangle.hi > reach || triangle.lo - height > reach) return true;
     const auto found = near_of(triangle, at);
     if (found && found->distance <= reach) near.push_back(*found);
-    return near.size() <= kMostNear;
+    return near.size() <= kMaxNear;
   });
 }
 
@@ -140,7 +140,7 @@ class LocalAscent {
   Vec3d run(Vec3d at) {
     double depth = of_.nearest(at).distance;
     double reach = std::max(depth, 64 * kShortest);
-    for (int step = 0; step < kMostClimbSteps && reach > kShortest; ++step) {
+    for (int step = 0; step < kMaxClimbSteps && reach > kShortest; ++step) {
       if (!domain_.find_planes_near(at, reach)) {
         reach /= 2;
         continue;
@@ -177,7 +177,7 @@ class LocalAscent {
     InscribedBall next;
     std::vector<std::uint32_t> tried;
     std::uint32_t triangle = of_.nearest(at).triangle;
-    for (int cut = 0; cut < kMostCuts; ++cut) {
+    for (int cut = 0; cut < kMaxCuts; ++cut) {
       if (std::ranges::find(tried, triangle) != tried.end()) break;
       tried.push_back(triangle);
       if (const auto near = near_of(of_.triangle(triangle), of_.local(at))) above_.push_back(*near);

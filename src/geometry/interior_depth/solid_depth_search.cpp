@@ -24,7 +24,7 @@ constexpr double kNearestLevel = 5e-4;
 constexpr double kFarStep = 0.5;
 /// Least distance of a level above the deepest point known: relative to the goal's tolerance, and
 /// in any case, grid units.
-constexpr double kLeastStep = 0.15, kFinestStep = 1.0 / 64;
+constexpr double kMinStep = 0.15, kFinestStep = 1.0 / 64;
 /// Factors by which the next level is farther above it, where it took too much work, or where a
 /// point was too near to the level to be distinguished from it. With 16 for the former the second
 /// level was beyond what a bracket may be wide.
@@ -48,7 +48,7 @@ class SolidDepthSearch {
   void run(std::span<const Vec3d> seeds) {
     for (const Vec3d& seed : seeds) climb(seed);
     if (!bracket_suffices(depth_, goal_)) narrow();
-    // The goal may ask for more, for as long as there is work left.
+    // The goal may request more, for as long as there is work left.
     depth_.complete = is_tight(depth_, goal_, kComplete);
   }
 
@@ -57,7 +57,7 @@ class SolidDepthSearch {
   void narrow() {
     hull_a_ = half_spaces_of(a_);
     hull_b_ = half_spaces_of(b_);
-    const double least = std::max(kLeastStep * goal_.tolerance, kFinestStep);
+    const double least = std::max(kMinStep * goal_.tolerance, kFinestStep);
     double farther = 1;
     while (const std::uint64_t left = cells_left()) {
       const double near = std::min(kNearestLevel, goal_.relative / 2) * depth_.value;
@@ -85,12 +85,12 @@ class SolidDepthSearch {
   enum class LevelOutcome : std::uint8_t { none, deeper, too_large, too_much, too_near };
 
   /// Whether some point is deeper than a level.
-  LevelOutcome search_level(double level, std::uint64_t most_cells) {
+  LevelOutcome search_level(double level, std::uint64_t max_cells) {
     LevelQuery question{.level = level,
                         .known = depth_.value,
                         .ceiling = depth_.upper,
                         .slack = 1.0 / 1024 + margin_,
-                        .most_cells = most_cells};
+                        .max_cells = max_cells};
     for (const bool in_a : {true, false}) {
       question.hull_of = in_a ? hull_a_ : hull_b_;
       question.hull_in = in_a ? hull_b_ : hull_a_;
@@ -101,15 +101,15 @@ class SolidDepthSearch {
       if (answer.deeper && climb(*answer.deeper)) return LevelOutcome::deeper;
       if (answer.too_large) return LevelOutcome::too_large;
       if (!answer.none)
-        return answer.cells > most_cells ? LevelOutcome::too_much : LevelOutcome::too_near;
+        return answer.cells > max_cells ? LevelOutcome::too_much : LevelOutcome::too_near;
     }
     return LevelOutcome::none;
   }
 
   [[nodiscard]] std::uint64_t cells_left() const {
-    const std::uint64_t most =
+    const std::uint64_t largest =
         kPerCell * (is_decided(depth_, goal_) ? goal_.cells_decided : goal_.cells_undecided);
-    return most - std::min(most, cells_);
+    return largest - std::min(largest, cells_);
   }
 
   /// Climbs from a point; returns whether that leads to a deeper one.

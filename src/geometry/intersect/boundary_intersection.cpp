@@ -252,7 +252,7 @@ class BoundaryTraversal {
   void traverse_piece(const PairLocalPart& a, const PairLocalPart& b, QueryContext& work);
   void classify_boundary_edges(const CoplanarFaces& plane, const TriangleBvh& tree_a,
                                const TriangleBvh& tree_b);
-  TraversalEnd go_on(DualTraversal& traversal, std::uint64_t most);
+  TraversalEnd go_on(DualTraversal& traversal, std::uint64_t limit);
   void finish(DualTraversal& traversal, std::uint64_t node_pairs_visited, QueryContext& work);
   bool traverse_along_slivers(QueryContext& work);
   void share(DualTraversal& traversal, const QueryContext& work);
@@ -299,13 +299,14 @@ void BoundaryTraversal::finish(DualTraversal& traversal, std::uint64_t node_pair
 bool BoundaryTraversal::traverse_along_slivers(QueryContext& work) {
   const auto aligned = rotate_along_slivers(a_, b_, work.context());
   if (!aligned) return false;
-  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& traversal, std::uint64_t most) {
+  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& traversal,
+                       std::uint64_t limit) {
     return traversal.run(
         0.0,
         [&](const NearTrianglePair& pair) {
           return piece.classifier_.classify_pair(pair.a, pair.b);
         },
-        most);
+        limit);
   };
   // Overlapping boxes suffice to classify a pair: bounds on its distance take longer.
   constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -423,11 +424,11 @@ void BoundaryTraversal::classify_boundary_edges(const CoplanarFaces& plane,
       });
 }
 
-TraversalEnd BoundaryTraversal::go_on(DualTraversal& traversal, std::uint64_t most) {
+TraversalEnd BoundaryTraversal::go_on(DualTraversal& traversal, std::uint64_t limit) {
   return traversal.run(
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return near(na, nb); },
       [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) { return leaves(na, nb); },
-      most);
+      limit);
 }
 
 /// Shares the rest: subtasks are classified independently and merged in the order of a sequential

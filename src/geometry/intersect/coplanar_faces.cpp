@@ -58,13 +58,13 @@ bool on_segment(const FacePoint& p, const FacePoint& a, const FacePoint& b) {
 bool contains(const Patch& x, const FacePoint& p) {
   if (x.count == 1) return x.point[0] == p;
   if (x.count == 2) return on_segment(p, x.point[0], x.point[1]);
-  int least = 1, most = -1;
+  int least = 1, largest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
     const int side = turn(x.point[i], x.point[(i + 1) % 3], p);
     least = std::min(least, side);
-    most = std::max(most, side);
+    largest = std::max(largest, side);
   }
-  return least >= 0 || most <= 0;
+  return least >= 0 || largest <= 0;
 }
 
 using Point2d = std::array<double, 2>;
@@ -213,7 +213,7 @@ namespace {
 /// Planes with fewer triangles are traversed as quickly; at most so many planes are handled. A
 /// cylinder in another of 128,000 triangles in all, flush at one end, takes 0.28 CPU s; by a
 /// traversal of everything it took 87 (decision 0024).
-constexpr std::size_t kFewestTriangles = 16, kMostPlanes = 8;
+constexpr std::size_t kFewestTriangles = 16, kMaxPlanes = 8;
 /// The least share of all pairs of triangles that has to lie in the planes, as a divisor.
 constexpr std::size_t kShare = 64;
 
@@ -311,7 +311,7 @@ std::vector<CoplanarFaces> find_coplanar_faces(const PairLocalPart& a, const Pai
   std::ranges::sort(planes, [&](const CoplanarFaces& p, const CoplanarFaces& q) {
     return std::tuple(pairs(q), p.axis, p.height) < std::tuple(pairs(p), q.axis, q.height);
   });
-  if (planes.size() > kMostPlanes) planes.resize(kMostPlanes);
+  if (planes.size() > kMaxPlanes) planes.resize(kMaxPlanes);
   std::size_t all = 0;
   for (const CoplanarFaces& plane : planes) all += pairs(plane);
   if (all < a.part().triangles.size() * b.part().triangles.size() / kShare) return {};

@@ -209,7 +209,7 @@ std::vector<Segment> lines_of(const PairLocalPart& a, const PairLocalPart& b, st
 
 }  // namespace
 
-std::optional<std::vector<Segment>> part_intersection_lines_up_to(std::size_t most,
+std::optional<std::vector<Segment>> part_intersection_lines_up_to(std::size_t limit,
                                                                   const PartWithObb& a,
                                                                   const PartWithObb& b,
                                                                   std::int64_t flush,
@@ -217,7 +217,7 @@ std::optional<std::vector<Segment>> part_intersection_lines_up_to(std::size_t mo
   const PairLocalPart x({a.placed, a.tree}, {});
   const PairLocalPart y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
   if (lies_on_one_side(x, y) || lies_on_one_side(y, x)) return std::vector<Segment>{};
-  const IntersectionSegments pieces = find_intersection_segments(a, b, most, work);
+  const IntersectionSegments pieces = find_intersection_segments(a, b, limit, work);
   if (pieces.truncated) return std::nullopt;
   return lines_of(x, y, flush, pieces.all);
 }

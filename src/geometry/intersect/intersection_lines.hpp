@@ -15,8 +15,8 @@ namespace strake::geometry {
 /// Whether a BVH costs less than it saves; for smaller parts the boxes are sorted instead.
 [[nodiscard]] inline bool needs_bvhs(const Part& a, const Part& b) {
   // Between 1024 and 16'384 ships show no difference (decision 0073).
-  constexpr std::size_t kMostSorted = 4096;
-  return a.triangles.size() + b.triangles.size() > kMostSorted;
+  constexpr std::size_t kMaxSorted = 4096;
+  return a.triangles.size() + b.triangles.size() > kMaxSorted;
 }
 
 /// Returns the lines along which the surfaces of two parts cross each other, in grid units relative
@@ -33,10 +33,10 @@ namespace strake::geometry {
                                                            const PartWithObb& b, std::int64_t flush,
                                                            QueryContext& work);
 
-/// Returns the same lines, or nothing where more than `most` pairs of triangles cross: two small
+/// Returns the same lines, or nothing where more than `limit` pairs of triangles cross: two small
 /// surfaces that cross everywhere have as many lines as the product of their triangle counts.
 [[nodiscard]] std::optional<std::vector<Segment>> part_intersection_lines_up_to(
-    std::size_t most, const PartWithObb& a, const PartWithObb& b, std::int64_t flush,
+    std::size_t limit, const PartWithObb& a, const PartWithObb& b, std::int64_t flush,
     QueryContext& work);
 
 /// Returns the same lines by testing every pair of triangles: the reference. Needs neither oriented

@@ -89,9 +89,9 @@ class CommonAreas {
 
 class SegmentFinder {
  public:
-  SegmentFinder(const PairLocalPart& a, const PairLocalPart& b, std::size_t most = kAll,
+  SegmentFinder(const PairLocalPart& a, const PairLocalPart& b, std::size_t limit = kAll,
                 std::function<bool(const IntersectionSegment&)> enough = {})
-      : a_(a), b_(b), most_(most), enough_(std::move(enough)) {}
+      : a_(a), b_(b), limit_(limit), enough_(std::move(enough)) {}
 
   /// Processes a pair of triangles; each pair that has more than a point in common must be passed
   /// once. Returns whether to go on.
@@ -171,14 +171,14 @@ class SegmentFinder {
   }
 
   void add(const IntersectionSegment& piece) {
-    found_.truncated = found_.truncated || found_.all.size() == most_;
+    found_.truncated = found_.truncated || found_.all.size() == limit_;
     if (found_.truncated) return;
     found_.all.push_back(piece);
     found_.truncated = enough_ && enough_(piece);
   }
 
   const PairLocalPart &a_, &b_;
-  std::size_t most_;
+  std::size_t limit_;
   std::function<bool(const IntersectionSegment&)> enough_;
   std::uint64_t triangle_pairs_ = 0;
   IntersectionSegments found_;
@@ -252,10 +252,10 @@ bool along_coordinates(const Axes& axes) {
 /// of the other, where that makes far fewer pairs.
 SweepAndPrune sweep_of(const PairLocalPart& a, const OrientedBox& frame_a, const PairLocalPart& b,
                        const OrientedBox& frame_b) {
-  const std::size_t most = a.part().triangles.size() + b.part().triangles.size();
+  const std::size_t limit = a.part().triangles.size() + b.part().triangles.size();
   SweepAndPrune sweep(a, b, nullptr);
   std::size_t pairs = 0;
-  if (sweep.run([&](std::uint32_t, std::uint32_t) { return ++pairs <= most; })) return sweep;
+  if (sweep.run([&](std::uint32_t, std::uint32_t) { return ++pairs <= limit; })) return sweep;
   const bool a_first = a.part().triangles.size() >= b.part().triangles.size();
   for (const OrientedBox* frame : {a_first ? &frame_a : &frame_b, a_first ? &frame_b : &frame_a}) {
     const Axes axes = orthonormal_axes(*frame);
@@ -267,19 +267,19 @@ SweepAndPrune sweep_of(const PairLocalPart& a, const OrientedBox& frame_a, const
 }  // namespace
 
 IntersectionSegments find_intersection_segments(
-    const PartWithBvh& a, const PartWithBvh& b, std::size_t most, QueryContext& work,
+    const PartWithBvh& a, const PartWithBvh& b, std::size_t limit, QueryContext& work,
     const std::function<bool(const IntersectionSegment&)>& enough) {
   const PairLocalPart x(a, {}), y(b, b.placed.origin - a.placed.origin);
-  SegmentFinder finder(x, y, most, enough);
+  SegmentFinder finder(x, y, limit, enough);
   traverse_trees(x, y, finder, work);
   return finder.result(work);
 }
 
 IntersectionSegments find_intersection_segments(const PartWithObb& a, const PartWithObb& b,
-                                                std::size_t most, QueryContext& work) {
+                                                std::size_t limit, QueryContext& work) {
   const PairLocalPart x({a.placed, a.tree}, {});
   const PairLocalPart y({b.placed, b.tree}, b.placed.origin - a.placed.origin);
-  SegmentFinder finder(x, y, most);
+  SegmentFinder finder(x, y, limit);
   if (needs_bvhs(x.part(), y.part())) {
     traverse_trees(x, y, finder, work);
   } else {

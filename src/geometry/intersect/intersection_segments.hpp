@@ -33,17 +33,18 @@ struct IntersectionSegments {
 /// to one side of b somewhere and to the other elsewhere; the segments then are those of the border
 /// where it does so. Touching from one side is no crossing, nor is a sheet that ends on the other.
 ///
-/// Exact. Stops after `most` segments that cross outright, or after one of them for which `enough`
+/// Exact. Stops after `limit` segments that cross outright, or after one of them for which `enough`
 /// holds. The cost is that of the contacts.
 [[nodiscard]] IntersectionSegments find_intersection_segments(
-    const PartWithBvh& a, const PartWithBvh& b, std::size_t most, QueryContext& work,
+    const PartWithBvh& a, const PartWithBvh& b, std::size_t limit, QueryContext& work,
     const std::function<bool(const IntersectionSegment&)>& enough = {});
 
 /// Returns the same segments in any order; cheap also for parts rotated against the coordinate
 /// axes. Both need an oriented box, and where needs_bvhs() says so a tree.
 [[nodiscard]] IntersectionSegments find_intersection_segments(const PartWithObb& a,
                                                               const PartWithObb& b,
-                                                              std::size_t most, QueryContext& work);
+                                                              std::size_t limit,
+                                                              QueryContext& work);
 
 /// Returns the same segments by testing every pair of triangles.
 [[nodiscard]] std::vector<IntersectionSegment> find_intersection_segments_brute_force(

@@ -103,7 +103,7 @@ namespace {
 
 /// Most vertices of a times triangles of b. Two tubes of 192 triangles, one in the other, take
 /// 25 µs; a pair that crosses fails at the first few planes (decision 0030).
-constexpr std::size_t kMostSides = std::size_t{1} << 16U;
+constexpr std::size_t kMaxSides = std::size_t{1} << 16U;
 
 /// The planes last found to have a on one side: files often alternate between faces.
 class RecentPlanes {
@@ -134,7 +134,7 @@ class RecentPlanes {
 bool lies_on_one_side(const PairLocalPart& a, const PairLocalPart& b) {
   const auto vertices = static_cast<std::uint32_t>(a.part().vertices.size());
   const auto triangles = static_cast<std::uint32_t>(b.part().triangles.size());
-  if (std::size_t{vertices} * triangles > kMostSides) return false;
+  if (std::size_t{vertices} * triangles > kMaxSides) return false;
   RecentPlanes known;
   for (std::uint32_t t = 0; t < triangles; ++t) {
     const ExactTriangle face = b.triangle(t);

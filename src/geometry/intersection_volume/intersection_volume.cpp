@@ -81,8 +81,8 @@ struct LoadedFacets {
 class VolumeSum {
  public:
   VolumeSum(const PairLocalPart& a, const PairLocalPart& b, const Box3l& common,
-            std::uint64_t most_work)
-      : a_(a), b_(b), common_(common), most_work_(most_work) {
+            std::uint64_t max_work)
+      : a_(a), b_(b), common_(common), max_work_(max_work) {
     frame_.corner = common.lo;
   }
 
@@ -90,11 +90,11 @@ class VolumeSum {
     if (!choose_axis() || !traverse()) return std::nullopt;
     IntersectionVolume result;
     const double error = error_ * (1 + 1e-9) + sum_.error();
-    const double most = box_volume() * (1 + 1e-15);
+    const double largest = box_volume() * (1 + 1e-15);
     result.triangle_pairs = triangle_pairs_;
-    result.volume = std::clamp(sum_.value(), 0.0, most);
+    result.volume = std::clamp(sum_.value(), 0.0, largest);
     result.lower = std::clamp(sum_.value() - error, 0.0, result.volume);
-    result.upper = std::clamp(sum_.value() + error, result.volume, most);
+    result.upper = std::clamp(sum_.value() + error, result.volume, largest);
     return result;
   }
 
@@ -107,9 +107,9 @@ class VolumeSum {
       frame_.axis = axis;
       double count = 1;
       for (const PairLocalPart* view : {&a_, &b_}) {
-        const auto seen = facets_seen(*view);
-        if (!seen) return false;
-        count *= static_cast<double>(*seen);
+        const auto visible = count_visible_facets(*view);
+        if (!visible) return false;
+        count *= static_cast<double>(*visible);
       }
       if (count >= fewest) continue;
       fewest = count;
@@ -119,22 +119,22 @@ class VolumeSum {
     return true;
   }
 
-  std::optional<std::uint64_t> facets_seen(const PairLocalPart& view) {
-    std::uint64_t seen = 0;
+  std::optional<std::uint64_t> count_visible_facets(const PairLocalPart& view) {
+    std::uint64_t visible = 0;
     bool afforded = true;
     traverse_bvh(
         view.tree(),
         [&](const TriangleBvh::Node& node) {
-          afforded = ++work_ <= most_work_;
+          afforded = ++work_ <= max_work_;
           return afforded && !out_of_sight(view.box(node.box), common_);
         },
         [&](std::uint32_t triangle) {
           const std::array<Vec3l, 3> c = view.corners(triangle);
-          if (orient2d(c[0], c[1], c[2], frame_.axis) != 0) ++seen;
+          if (orient2d(c[0], c[1], c[2], frame_.axis) != 0) ++visible;
           return true;
         });
     if (!afforded) return std::nullopt;
-    return seen;
+    return visible;
   }
 
   [[nodiscard]] bool out_of_sight(const Box3l& box, const Box3l& column) const {
@@ -146,7 +146,7 @@ class VolumeSum {
     traverse_both(
         a_.tree(), b_.tree(),
         [&](const TriangleBvh::Node& na, const TriangleBvh::Node& nb) {
-          afforded = ++work_ <= most_work_;
+          afforded = ++work_ <= max_work_;
           const Box3l box_a = a_.box(na.box), box_b = b_.box(nb.box);
           return afforded && !out_of_sight(box_a, box_b) && !out_of_sight(box_b, box_a);
         },
@@ -179,7 +179,7 @@ class VolumeSum {
 
   const PairLocalPart &a_, &b_;
   Box3l common_;
-  std::uint64_t most_work_;
+  std::uint64_t max_work_;
   IntegrationFrame frame_;
   LoadedFacets leaf_a_, leaf_b_;
   CompensatedSum sum_;
@@ -190,12 +190,12 @@ class VolumeSum {
 }  // namespace
 
 std::optional<IntersectionVolume> intersection_volume(const PartWithBvh& a, const PartWithBvh& b,
-                                                      std::uint64_t most_work) {
+                                                      std::uint64_t max_work) {
   const PairLocalPart view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
   if (!view_a.solid() || !view_b.solid()) return std::nullopt;
   const Box3l common = view_a.box(a.placed.part->box).common(view_b.box(b.placed.part->box));
   if (empty(common)) return IntersectionVolume{};
-  return VolumeSum(view_a, view_b, common, most_work).run();
+  return VolumeSum(view_a, view_b, common, max_work).run();
 }
 
 }  // namespace strake::geometry

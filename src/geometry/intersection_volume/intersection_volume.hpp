@@ -16,7 +16,7 @@ struct IntersectionVolume {
 };
 
 /// Returns the volume of the intersection of two solids as they are on the grid: a body with a
-/// primitive counts as its tessellation. Nothing when this would take more than `most_work` pairs
+/// primitive counts as its tessellation. Nothing when this would take more than `max_work` pairs
 /// of triangles or nodes, and for parts that are no solids.
 ///
 ///     const auto common = intersection_volume(pipe, wall, 1000000);
@@ -35,6 +35,6 @@ struct IntersectionVolume {
 ///    mesh covers twice counts twice.
 [[nodiscard]] std::optional<IntersectionVolume> intersection_volume(const PartWithBvh& a,
                                                                     const PartWithBvh& b,
-                                                                    std::uint64_t most_work);
+                                                                    std::uint64_t max_work);
 
 }  // namespace strake::geometry

@@ -15,7 +15,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 /// Three corners, three cuts by the other's edges and two by heights make eight, each cut adding
 /// one; the rest is for polygons that rounding leaves convex to within an ulp only.
-constexpr std::size_t kMostCorners = 12;
+constexpr std::size_t kMaxCorners = 12;
 
 /// A corner of the common part of two projections, with the heights of both planes above it.
 struct PrismCorner {
@@ -24,7 +24,7 @@ struct PrismCorner {
 };
 
 struct PrismBase {
-  std::array<PrismCorner, kMostCorners> corner;
+  std::array<PrismCorner, kMaxCorners> corner;
   std::size_t size = 0;
   void add(const PrismCorner& c) { corner[size++] = c; }
 };
@@ -37,7 +37,7 @@ PrismCorner between(const PrismCorner& p, const PrismCorner& q, double t) {
 /// Returns the part of a convex polygon where `height` is not negative.
 template <class Height>
 PrismBase cut(const PrismBase& polygon, Height&& height) {
-  std::array<double, kMostCorners> at{};
+  std::array<double, kMaxCorners> at{};
   bool all = true, none = true;
   for (std::size_t i = 0; i < polygon.size; ++i) {
     at[i] = height(polygon.corner[i]);
@@ -52,8 +52,8 @@ PrismBase cut(const PrismBase& polygon, Height&& height) {
     const PrismCorner &p = polygon.corner[i], &q = polygon.corner[next];
     if (at[i] >= 0) kept.add(p);
     const bool crosses = (at[i] > 0 && at[next] < 0) || (at[i] < 0 && at[next] > 0);
-    if (crosses && kept.size < kMostCorners) kept.add(between(p, q, at[i] / (at[i] - at[next])));
-    if (kept.size == kMostCorners) break;
+    if (crosses && kept.size < kMaxCorners) kept.add(between(p, q, at[i] / (at[i] - at[next])));
+    if (kept.size == kMaxCorners) break;
   }
   return kept;
 }

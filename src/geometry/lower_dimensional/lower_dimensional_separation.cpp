@@ -73,7 +73,7 @@ LowerDimensionalSeparation meeting(const DeepestOfSimplices& deepest,
       primitive_pairs::nominal_separation(s.lower, s.upper, primitive_pairs::kTorusDepthTolerance);
   s.inside = true;
   s.on_body = deepest.point;
-  const Vec3d out = primitive.torus ? primitive.torus->way_out(deepest.point)
+  const Vec3d out = primitive.torus ? primitive.torus->exit_direction(deepest.point)
                                     : primitive.field->nearest(deepest.point).normal;
   s.on_other = deepest.point - out * s.d;
   return s;
@@ -148,7 +148,7 @@ using primitive_pairs::Torus;
 /// Grid units: farther from the surface than this, the grid point next to a point is on its side.
 constexpr double kSnap = 2;
 /// Maximum number of chords of a quarter circle.
-constexpr int kMostChords = 1024;
+constexpr int kMaxChords = 1024;
 
 /// The decisions are exact.
 void add_piece(const BodySimplex& piece, const PartWithBvh& mesh, double enough,
@@ -176,7 +176,7 @@ struct Chords {
       const double angle = quarter.to - quarter.from;
       // A sagitta of half a unit: radius·step²/8.
       const double wanted = std::ceil(angle * std::sqrt(radius) / 2);
-      const int count = std::max(1, static_cast<int>(std::min<double>(wanted, kMostChords)));
+      const int count = std::max(1, static_cast<int>(std::min<double>(wanted, kMaxChords)));
       const double step = angle / count;
       sagitta = std::max(sagitta, radius * step * step / 8);
       const auto at = [&](int i) {

@@ -35,9 +35,9 @@ const Connectivity* ConnectivityCache::find(const MeshKey& key) {
   const auto at = entries_.find(last_hash_);
   if (at == entries_.end()) {
     // Most meshes of some models come only once: those cost a look and a word.
-    std::uint64_t& seen = seen_[last_hash_ % kSeen];
-    should_store_last_ = seen == last_hash_ && bytes_ + bytes_of(key) <= kMostBytes;
-    seen = last_hash_;
+    std::uint64_t& recent = recent_hashes_[last_hash_ % kRecentHashes];
+    should_store_last_ = recent == last_hash_ && bytes_ + bytes_of(key) <= kMaxBytes;
+    recent = last_hash_;
     return nullptr;
   }
   const Entry& entry = *at->second;

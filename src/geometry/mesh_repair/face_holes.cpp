@@ -65,11 +65,11 @@ bool lie_in_plane(const Part& part, std::uint32_t triangle, std::span<const std:
   constexpr double kOff = 4;
   const ExactNormal n = triangle_normal(part, triangle);
   const Vec3d size = rounded_normal(part, triangle);
-  const double most = (kOff + 2 * part.weld) * std::sqrt(dot(size, size));
+  const double largest = (kOff + 2 * part.weld) * std::sqrt(dot(size, size));
   const Vec3l on = part.vertices[part.triangles[triangle][0]].as<std::int64_t>();
   return std::ranges::all_of(some, [&](std::uint32_t v) {
     return std::fabs(static_cast<double>(along(n, part.vertices[v].as<std::int64_t>() - on))) <=
-           most;
+           largest;
   });
 }
 
@@ -99,28 +99,28 @@ bool holds_half(const Part& part, std::uint32_t triangle, std::span<const std::u
 }  // namespace
 
 bool has_incomplete_faces(const Part& part) {
-  constexpr std::size_t kMostCorners = 64, kMostHoleBoundaries = 16;
+  constexpr std::size_t kMaxCorners = 64, kMaxHoleBoundaries = 16;
   const std::vector<BorderEdge> rim = border_edges(part);
   if (rim.empty()) return false;
   const auto ends = ends_of(rim);
   if (!ends) return false;
-  std::vector<std::uint8_t> seen(rim.size(), 0);
+  std::vector<std::uint8_t> visited(rim.size(), 0);
   std::vector<std::uint32_t> vertices, triangles;
   std::size_t rims = 0;
   for (std::uint32_t first = 0; first < rim.size(); ++first) {
-    if (seen[first] != 0) continue;
+    if (visited[first] != 0) continue;
     vertices.clear();
     triangles.clear();
     std::uint32_t v = rim[first].v1;
-    for (std::uint32_t e = first; seen[e] == 0;) {
-      seen[e] = 1;
+    for (std::uint32_t e = first; visited[e] == 0;) {
+      visited[e] = 1;
       vertices.push_back(v);
       triangles.push_back(rim[e].triangle);
       const EdgeEnds& at = ends->at(v);
       e = at.first == e ? at.second : at.first;
       v = rim[e].v0 == v ? rim[e].v1 : rim[e].v0;
     }
-    if (vertices.size() > kMostCorners || ++rims > kMostHoleBoundaries) return false;
+    if (vertices.size() > kMaxCorners || ++rims > kMaxHoleBoundaries) return false;
     const auto in_plane = std::ranges::find_if(
         triangles, [&](std::uint32_t t) { return lie_in_plane(part, t, vertices); });
     if (in_plane == triangles.end() || !holds_half(part, *in_plane, vertices)) return false;

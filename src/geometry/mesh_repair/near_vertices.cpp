@@ -51,9 +51,9 @@ bool is_near_segment(const Vec3i& p, const Vec3i& a, const Vec3i& b, std::int64_
   const Vec3l from = a.as<std::int64_t>();
   const Vec3l to = p.as<std::int64_t>() - from, way = b.as<std::int64_t>() - from;
   const WideProduct along = wide_dot(to, way), length = wide_dot(way, way),
-                    most = WideProduct{within} * within;
-  if (along <= 0) return wide_dot(to, to) <= most;
-  if (along >= length) return squared_distance(p, b) <= most;
+                    largest = WideProduct{within} * within;
+  if (along <= 0) return wide_dot(to, to) <= largest;
+  if (along >= length) return squared_distance(p, b) <= largest;
   const auto minor = [&](int i, int j) {
     return WideProduct{to[i]} * way[j] - WideProduct{to[j]} * way[i];
   };
@@ -65,7 +65,7 @@ bool is_near_segment(const Vec3i& p, const Vec3i& a, const Vec3i& b, std::int64_
     if (m > kFar || m < -kFar) return false;
     sum += m * m;
   }
-  return sum <= most * length;
+  return sum <= largest * length;
 }
 
 NearPoints::NearPoints(std::span<const Vec3i> vertices, std::vector<std::uint32_t> some)

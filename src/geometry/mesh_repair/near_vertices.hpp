@@ -13,12 +13,12 @@
 namespace strake::geometry {
 
 /// The greatest length, in grid units, up to which vertices may be merged.
-inline constexpr std::int64_t kMostWeld = std::int64_t{1} << 20U;
+inline constexpr std::int64_t kMaxWeld = std::int64_t{1} << 20U;
 
 /// Returns the exact squared distance of two points on the grid.
 [[nodiscard]] __int128 squared_distance(const Vec3i& p, const Vec3i& q);
 
-/// Whether a point lies no farther from a segment than `within` (up to kMostWeld): exact.
+/// Whether a point lies no farther from a segment than `within` (up to kMaxWeld): exact.
 [[nodiscard]] bool is_near_segment(const Vec3i& p, const Vec3i& a, const Vec3i& b,
                                    std::int64_t within);
 

@@ -46,7 +46,7 @@ std::vector<IndexPair> candidates(std::span<const Part> shells) {
   return pairs;
 }
 
-/// Trees over the shells, made when first asked for.
+/// Trees over the shells, made when first requested.
 class Trees {
  public:
   explicit Trees(std::span<const Part> shells) : shells_(shells), trees_(shells.size()) {}

@@ -109,8 +109,8 @@ void TJunctions::split_edges_on_line(std::span<const OpenEdge> edges) {
     if (matches(i - 1) || matches(i)) cuts_.add_point(ends[i]);
   // Surfaces match in pairs: each is split at no more points than the others have, unless they run
   // to and fro.
-  constexpr std::size_t kMostCuts = 8;
-  const std::size_t most = kMostCuts * edges.size() + 64;
+  constexpr std::size_t kMaxCuts = 8;
+  const std::size_t largest = kMaxCuts * edges.size() + 64;
   std::size_t cuts = 0;
   for (const OpenEdge& e : edges) {
     const std::span<const std::uint32_t> points = cuts_.points_from(first_point);
@@ -122,7 +122,7 @@ void TJunctions::split_edges_on_line(std::span<const OpenEdge> edges) {
     cuts_.add(e.low, e.high, first_point + before, count);
     cuts += count * (e.along + e.back);
   }
-  if (cuts > most || cuts_.edges() == first_edge) cuts_.drop(first_point, first_edge);
+  if (cuts > largest || cuts_.edges() == first_edge) cuts_.drop(first_point, first_edge);
 }
 
 std::size_t EdgeCuts::add_point(std::uint32_t vertex) {

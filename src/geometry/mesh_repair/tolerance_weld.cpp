@@ -164,10 +164,10 @@ void keep_matching(Beside& b, const Pieces& pieces) {
 /// beside another as well, where the two meet at a small angle. One after another, in at most
 /// 16 passes.
 void drop_needless(std::vector<Beside>& edges) {
-  constexpr int kMostPasses = 16;
+  constexpr int kMaxPasses = 16;
   Pieces pieces(edges);
   bool dropped = true;
-  for (int pass = 0; pass < kMostPasses && dropped; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && dropped; ++pass) {
     dropped = false;
     for (Beside& b : edges)
       for (std::size_t i = 0; i < b.corners.size();) {
@@ -190,7 +190,7 @@ NearTJunctions find_near_t_junctions(const GridMesh& welded, const Topology& top
                                      const NearPoints& points,
                                      const std::vector<std::uint8_t>& may_cut,
                                      std::int64_t within) {
-  constexpr std::size_t kMostCuts = 8, kAlwaysCuts = 64;
+  constexpr std::size_t kMaxCuts = 8, kAlwaysCuts = 64;
   NearTJunctions found;
   std::vector<Beside> edges;
   std::size_t corners = 0;
@@ -200,7 +200,7 @@ NearTJunctions find_near_t_junctions(const GridMesh& welded, const Topology& top
     if (beside.edge.balances()) continue;
     corners += beside.corners.size();
     edges.push_back(std::move(beside));
-    found.tangled = finder.tangled() || corners > kMostCuts * topology.uneven.size() + kAlwaysCuts;
+    found.tangled = finder.tangled() || corners > kMaxCuts * topology.uneven.size() + kAlwaysCuts;
     if (found.tangled) return found;
   }
   if (corners == 0) return found;
@@ -269,10 +269,10 @@ class Welder {
   }
 
   std::optional<ToleranceWeld> weld(Topology& topology) {
-    constexpr int kMostAttempts = 4;  // two are usual (decision 0034)
+    constexpr int kMaxAttempts = 4;  // two are usual (decision 0034)
     find_clusters();
     bool settled = false;
-    for (int i = 0; i < kMostAttempts && !settled; ++i) {
+    for (int i = 0; i < kMaxAttempts && !settled; ++i) {
       attempt(topology);
       settled = all_of_use(topology);
     }
@@ -389,7 +389,7 @@ class Welder {
   }
 
   /// Counts the shells that are closed at these edges. The corners of those that are no thicker
-  /// than corners may lie apart are to stay, and where whole shells are asked for those of all
+  /// than corners may lie apart are to stay and, where whole shells are requested, those of all
   /// others; whether there are any.
   bool leave_shells(const Topology& topology, const std::vector<std::uint32_t>& joined) {
     const GridMesh& mesh = scratch_.welded;

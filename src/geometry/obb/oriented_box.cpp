@@ -16,7 +16,7 @@ namespace {
 constexpr double kSquare = 0.1;
 
 /// The greatest angle error of slivers, radians: thinner ones have no usable normal.
-constexpr double kMostTilt = 0.25;
+constexpr double kMaxTilt = 0.25;
 
 /// Returns the mean normal of the slivers that the snap alone may have rotated from one of them:
 /// the face's normal, which none of them has. The sliver's own where they are few.
@@ -26,7 +26,7 @@ Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
   for (const Triangle& triangle : part.triangles) {
     const Corners t = corners_of(part, triangle);
     const Vec3d n = normal_of(t);
-    const double own = std::min(kMostTilt, snap_angle_error(t, n));
+    const double own = std::min(kMaxTilt, snap_angle_error(t, n));
     if (own <= kSliverAngle || !may_be_one_face(n * (1 / length(n)), own, normal, tilt)) continue;
     sum = sum + n;
     ++count;
@@ -39,20 +39,20 @@ Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
 template <class Pass>
 Vec3d largest_face(const Part& part, Pass&& pass) {
   Vec3d best;
-  double most = 0;
+  double largest = 0;
   const Triangle* of = nullptr;
   for (const Triangle& t : part.triangles) {
     const Vec3d n = normal_of(corners_of(part, t));
     const double squared = dot(n, n);
-    if (squared > most && pass(n, squared)) {
-      most = squared;
+    if (squared > largest && pass(n, squared)) {
+      largest = squared;
       best = n;
       of = &t;
     }
   }
   if (of == nullptr) return {};
-  const Vec3d normal = best * (1 / std::sqrt(most));
-  const double tilt = std::min(kMostTilt, snap_angle_error(corners_of(part, *of), best));
+  const Vec3d normal = best * (1 / std::sqrt(largest));
+  const double tilt = std::min(kMaxTilt, snap_angle_error(corners_of(part, *of), best));
   // Small parts have no such faces, and there are too many of them to test.
   if (part.vertices.size() < kManyVertices || tilt <= kSliverAngle) return normal;
   return mean_of_needles(part, normal, tilt);

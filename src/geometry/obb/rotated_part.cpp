@@ -43,7 +43,7 @@ namespace {
 
 /// Number of triangles sampled, and how many of their edges have to be parallel.
 constexpr std::size_t kSampledEdges = 32;
-constexpr std::ptrdiff_t kLeastAlike = 8;
+constexpr std::ptrdiff_t kMinAlike = 8;
 /// The ratio from which on an edge is so much longer than the height over it that the triangle is a
 /// sliver.
 constexpr double kElongation = 3;
@@ -89,14 +89,14 @@ std::vector<LongEdge> long_edges(const PairLocalPart& view) {
 const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::* direction,
                             std::ptrdiff_t least) {
   const LongEdge* best = nullptr;
-  std::ptrdiff_t most = least;
+  std::ptrdiff_t largest = least;
   for (const LongEdge& edge : edges) {
     const auto alike = std::ranges::count_if(edges, [&](const LongEdge& other) {
       return in_one_direction(edge.*direction, other.*direction);
     });
-    if (alike < most || (alike == most && best != nullptr && edge.squared <= best->squared))
+    if (alike < largest || (alike == largest && best != nullptr && edge.squared <= best->squared))
       continue;
-    most = alike;
+    largest = alike;
     best = &edge;
   }
   return best;
@@ -105,7 +105,7 @@ const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::
 /// Returns axes along the direction of most long edges, and perpendicular to the plane that most of
 /// those lie in.
 std::optional<Axes> axes_of(std::vector<LongEdge> edges) {
-  const LongEdge* const best = most_common(edges, &LongEdge::way, kLeastAlike);
+  const LongEdge* const best = most_common(edges, &LongEdge::way, kMinAlike);
   if (best == nullptr) return std::nullopt;
   const Vec3d z = best->way;
   std::erase_if(edges, [&](const LongEdge& edge) { return !in_one_direction(edge.way, z); });

@@ -75,14 +75,14 @@ class CapTriangulator {
 
   /// Points in their order, each with the lowest vertex that is seen there.
   void number_points() {
-    std::vector<std::pair<CapPoint, std::uint32_t>> seen;
+    std::vector<std::pair<CapPoint, std::uint32_t>> flat_points;
     for (const auto& line : lines_)
-      for (const std::uint32_t v : line) seen.emplace_back(flat(v), v);
-    std::ranges::sort(seen);
+      for (const std::uint32_t v : line) flat_points.emplace_back(flat(v), v);
+    std::ranges::sort(flat_points);
     points_.clear();
     vertex_.clear();
     number_.clear();
-    for (const auto& [point, v] : seen) {
+    for (const auto& [point, v] : flat_points) {
       if (points_.empty() || points_.back() != point) {
         points_.push_back(point);
         vertex_.push_back(v);

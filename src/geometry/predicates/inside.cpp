@@ -40,12 +40,12 @@ int moved_turn2d(const Vec3l& a, const Vec3l& b, const ScaledPoint& p, int axis)
 /// The place of a point of the triangle's plane, given the triangle's normal.
 FeatureMask place_in_plane(const TriangleCorners& t, const Vec3<Int128>& normal,
                            const ScaledPoint& p) {
-  const int seen = any_axis(normal);
-  if (seen < 0) return 0;
-  const int facing = sign_of(normal[seen]);
+  const int projection_axis = any_axis(normal);
+  if (projection_axis < 0) return 0;
+  const int facing = sign_of(normal[projection_axis]);
   unsigned on_edges = 0;
   for (unsigned i = 0; i < 3; ++i) {
-    const int turn = facing * turn2d(t[i], t[next_corner(i)], p, seen);
+    const int turn = facing * turn2d(t[i], t[next_corner(i)], p, projection_axis);
     if (turn < 0) return 0;
     if (turn == 0) on_edges |= 1U << i;
   }

@@ -14,7 +14,7 @@ namespace strake::geometry {
 namespace {
 
 /// The largest coordinate of a grid point: kMaxGridMm.
-constexpr Int128 kMostOnGrid = Int128{1} << 50U;
+constexpr Int128 kMaxOnGrid = Int128{1} << 50U;
 
 /// The plane normal · (p - on) = 0.
 struct NormalPlane {
@@ -127,10 +127,10 @@ ThreePlanes intersect_planes(const TriangleCorners& a, const TriangleCorners& b,
 }
 
 std::optional<Vec3l> nearest_on_grid(const WideRationalPoint& point) {
-  const WideInt<5> most = mul(WideInt<2>(kMostOnGrid), point.denominator);
+  const WideInt<5> largest = mul(WideInt<2>(kMaxOnGrid), point.denominator);
   for (int k = 0; k < 3; ++k) {
     const WideInt<5> at = point.numerator[k];
-    if (most < at || at < -most) return std::nullopt;
+    if (largest < at || at < -largest) return std::nullopt;
   }
   return point.rounded();
 }

@@ -114,7 +114,7 @@ class AxisSearch {
  private:
   void offer(const Axis& axis);
   void offer_flat();
-  void offer_edges_seen_along(const Axis& normal);
+  void offer_projected_edges(const Axis& normal);
   [[nodiscard]] bool better(const Axis& axis, Int128 gap) const;
 
   const Hull &a_, &b_;
@@ -157,7 +157,7 @@ void AxisSearch::offer(const Axis& axis) {
 }
 
 /// The normals of the edges in the plane that both shapes are parallel to.
-void AxisSearch::offer_edges_seen_along(const Axis& normal) {
+void AxisSearch::offer_projected_edges(const Axis& normal) {
   const int drop = any_axis(normal);
   for (const Hull* hull : {&a_, &b_})
     for (const Vec3l& e : hull->edges) {
@@ -171,7 +171,7 @@ void AxisSearch::offer_edges_seen_along(const Axis& normal) {
 /// Where the candidates leave a plane or a line to look along.
 void AxisSearch::offer_flat() {
   if (any_) {
-    offer_edges_seen_along(Axis(best_.axis));
+    offer_projected_edges(Axis(best_.axis));
     return;
   }
   const Vec3l between = b_.points[0] - a_.points[0];
@@ -179,7 +179,7 @@ void AxisSearch::offer_flat() {
   const Vec3l way = longer.edges.empty() ? between : longer.edges[0];
   const Axis normal = cross_exact(way, between);
   if (!zero(normal)) {
-    offer_edges_seen_along(normal);
+    offer_projected_edges(normal);
     return;
   }
   // All on one line: try the axis along it, and one perpendicular to it, where there is no gap.

@@ -154,13 +154,13 @@ Slabs slabs_of(const RigidPrimitive& body, const Vec3d& centre) {
 /// with t as a parabola through each set of slabs that the centre lies beyond.
 double deepest_of_ball(const Slabs& s, double radius) {
   const auto slabs = std::span(s.half).first(s.count);
-  const double most = *std::min_element(slabs.begin(), slabs.end());
-  if (s.squared_distance(most) <= radius * radius) return most;
+  const double largest = *std::min_element(slabs.begin(), slabs.end());
+  if (s.squared_distance(largest) <= radius * radius) return largest;
   std::array<double, 3> beyond{};
   for (std::size_t k = 0; k < s.count; ++k) beyond[k] = s.at[k] - s.half[k];
   std::sort(beyond.begin(), beyond.begin() + static_cast<std::ptrdiff_t>(s.count),
             [](double x, double y) { return x > y; });
-  double sum = 0, squares = 0, t = most;
+  double sum = 0, squares = 0, t = largest;
   for (std::size_t m = 0; m < s.count; ++m) {
     sum += beyond[m];
     squares += beyond[m] * beyond[m];
@@ -169,7 +169,7 @@ double deepest_of_ball(const Slabs& s, double radius) {
     t = (std::sqrt(std::max(0.0, root)) - sum) / n;
     if (m + 1 == s.count || t <= -beyond[m + 1]) break;
   }
-  return std::clamp(t, 0.0, most);
+  return std::clamp(t, 0.0, largest);
 }
 
 double farthest(const Slabs& s) {

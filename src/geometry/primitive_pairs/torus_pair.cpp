@@ -38,7 +38,7 @@ PrimitiveSeparation meeting(const PrimitiveOperand& a, const PrimitiveOperand& b
   s.deep_in_a = search.deep_in_a();
   const PrimitiveOperand& in = s.deep_in_a ? a : b;
   const Vec3d out =
-      in.torus ? in.torus->way_out(depth.point) : in.field->nearest(depth.point).normal;
+      in.torus ? in.torus->exit_direction(depth.point) : in.field->nearest(depth.point).normal;
   s.away = s.deep_in_a ? -out : out;
   s.a_inside_b = containment_depth(a, b);
   s.b_inside_a = containment_depth(b, a);

@@ -64,8 +64,8 @@ class ContouredCap {
     RimArc near = rim_arc(rim, right, left, 1), far = rim_arc(rim, right, left, -1);
     std::vector<Arc> arcs;
     for (const double tilt : tilts) arcs.push_back(arc(tilt));
-    const Arc& most = *std::ranges::max_element(arcs, {}, &Arc::half_angle);
-    unite(near, far, most, step);
+    const Arc& largest = *std::ranges::max_element(arcs, {}, &Arc::half_angle);
+    unite(near, far, largest, step);
     add_where_flat(near, arcs.front());
     add_where_flat(far, arcs.back());
 
@@ -86,7 +86,7 @@ class ContouredCap {
     Row base = low;
     base.insert(base.end(), high.rbegin() + 1, high.rend() - 1);
     builder_.polygon(base, true);
-    return std::move(builder_).take(surface_sag(most, tilts, widest_step(rim)));
+    return std::move(builder_).take(surface_sag(largest, tilts, widest_step(rim)));
   }
 
  private:
@@ -140,19 +140,19 @@ class ContouredCap {
   /// Makes columns of those of both arcs of the rim, and more where they are wider than `step` on
   /// the arc that turns most, which is where they are widest. Of two that are nearly one the first
   /// stands for both.
-  void unite(RimArc& near, RimArc& far, const Arc& most, double step) {
+  void unite(RimArc& near, RimArc& far, const Arc& largest, double step) {
     const std::vector<Column> of_rim = std::exchange(columns_, {});
     std::vector<Column> some = of_rim;
     some.push_back(1);
     std::ranges::sort(some);
-    double from = -most.half_angle;
+    double from = -largest.half_angle;
     for (const Column column : some) {
-      const double to = column < 1 ? angle_on(most, column) : most.half_angle;
-      const double length = (to - from) * most.radius;
+      const double to = column < 1 ? angle_on(largest, column) : largest.half_angle;
+      const double length = (to - from) * largest.radius;
       if (!columns_.empty() && length < step / 1000) continue;
       const int parts = std::max(1, static_cast<int>(std::ceil(length / step * (1 - 1e-9))));
       for (int k = 1; k < parts; ++k)
-        columns_.push_back(tan_of_half(from + (to - from) * k / parts) / most.tan);
+        columns_.push_back(tan_of_half(from + (to - from) * k / parts) / largest.tan);
       if (column < 1) columns_.push_back(column);
       from = to;
     }
@@ -257,18 +257,18 @@ class ContouredCap {
 
   /// Facets between the rim and the next row have the chords of the one and the height of the
   /// other.
-  [[nodiscard]] double surface_sag(const Arc& most, const std::vector<double>& tilts,
+  [[nodiscard]] double surface_sag(const Arc& largest, const std::vector<double>& tilts,
                                    double rim_step) const {
     double across = std::max(from_apex_ - tilts.front(), tilts.back() + from_apex_);
     for (std::size_t i = 0; i + 1 < tilts.size(); ++i)
       across = std::max(across, tilts[i] - tilts[i + 1]);
-    double along = 0, from = -most.half_angle;
+    double along = 0, from = -largest.half_angle;
     for (const Column column : columns_) {
-      const double to = angle_on(most, column);
+      const double to = angle_on(largest, column);
       along = std::max(along, to - from);
       from = to;
     }
-    along = std::max(along, most.half_angle - from) * most.radius / contour_.ball;
+    along = std::max(along, largest.half_angle - from) * largest.radius / contour_.ball;
     along = std::max(along, rim_step * radius_ / contour_.ball);
     return contour_.ball * (along * along + across * across) / 8;
   }

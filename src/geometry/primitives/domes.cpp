@@ -13,7 +13,7 @@ namespace strake::geometry::tessellation {
 namespace {
 
 /// Doubly curved faces grow with the square of this.
-constexpr int kMostDomeSegments = 1024;
+constexpr int kMaxDomeSegments = 1024;
 
 Vec3d unit_or_zero(const Vec3d& v) {
   const double length = std::sqrt(dot(v, v));
@@ -190,12 +190,12 @@ std::optional<Tessellation> elliptical_from_eye(const EllipticalDishPrimitive& p
   // What is stretched is as much farther from the surface.
   if (stretch > 1)
     segments = static_cast<int>(
-        std::min(std::ceil(segments * std::sqrt(stretch)), double{kMostDomeSegments}));
-  auto seen = cap_in_view(SphericalDishPrimitive{p.radius, p.radius}, of_ball, segments, rows);
-  if (!seen) return std::nullopt;
-  for (Vec3d& v : seen->mesh.vertices) v.z *= stretch;
-  seen->mesh.sag_mm *= std::max(1.0, stretch);
-  return seen;
+        std::min(std::ceil(segments * std::sqrt(stretch)), double{kMaxDomeSegments}));
+  auto contoured = cap_in_view(SphericalDishPrimitive{p.radius, p.radius}, of_ball, segments, rows);
+  if (!contoured) return std::nullopt;
+  for (Vec3d& v : contoured->mesh.vertices) v.z *= stretch;
+  contoured->mesh.sag_mm *= std::max(1.0, stretch);
+  return contoured;
 }
 
 Tessellation turned(Tessellation t, const Basis& b) {
@@ -209,22 +209,22 @@ Tessellation make(const SpherePrimitive& p, const TessellationTarget& target) {
   if (!are_lengths({p.diameter})) return fault("a length is negative or not finite");
   if (p.diameter == 0) return fault("a sphere of no diameter");
   const double radius = p.diameter / 2;
-  const int n = circle_segments(radius, kRimShare * target.sag, kMostDomeSegments);
+  const int n = circle_segments(radius, kRimShare * target.sag, kMaxDomeSegments);
   const double rim_sag = sagitta(radius, 2 * kPi / n);
-  const int half = arc_segments(radius, kPi / 2, target.sag - rim_sag, kMostDomeSegments / 4);
+  const int half = arc_segments(radius, kPi / 2, target.sag - rim_sag, kMaxDomeSegments / 4);
   const int rows = 2 * std::max(half, 2);
   const RevolutionSweep sweep{rim(n, {0, 1}), true};
   MeshBuilder builder;
-  if (const auto seen = BallFromEye::of(target, radius)) {
+  if (const auto contoured = BallFromEye::of(target, radius)) {
     std::vector<ProfilePoint> profile{{0, -radius}};
-    for (const double latitude : seen->latitudes(radius, rows)) {
+    for (const double latitude : contoured->latitudes(radius, rows)) {
       const SinCos a = sin_cos(latitude);
       profile.push_back({radius * a.cos, radius * a.sin});
     }
     profile.push_back({0, radius});
     (void)revolve(builder, sweep, profile.size(), false,
                   [&](std::size_t i, std::size_t) { return profile[i]; });
-    return turned(std::move(builder).take(rim_sag + sagitta(radius, kPi / rows)), seen->basis);
+    return turned(std::move(builder).take(rim_sag + sagitta(radius, kPi / rows)), contoured->basis);
   }
   // From pole to pole; both halves from the same sines.
   (void)revolve(builder, sweep, static_cast<std::size_t>(rows) + 1, false,
@@ -245,18 +245,18 @@ Tessellation make(const EllipticalDishPrimitive& p, const TessellationTarget& ta
   if (!are_lengths({p.radius, p.height})) return fault("a length is negative or not finite");
   if (p.radius == 0) return fault("a dish of no radius");
   if (p.height == 0) return disc(p.radius, target);
-  const int n = circle_segments(p.radius, kRimShare * target.sag, kMostDomeSegments);
+  const int n = circle_segments(p.radius, kRimShare * target.sag, kMaxDomeSegments);
   const double rim_sag = sagitta(p.radius, 2 * kPi / n);
   // A chord over the parameter step t strays by at most |second derivative|·t²/8.
   const double axis = std::max(p.radius, p.height), rest = target.sag - rim_sag;
   const double wanted = kPi / 2 * std::sqrt(axis / (8 * rest));
-  constexpr int kMostRows = kMostDomeSegments / 4;
-  const int rows = wanted < kMostRows ? std::max(2, static_cast<int>(wanted) + 1) : kMostRows;
+  constexpr int kMaxRows = kMaxDomeSegments / 4;
+  const int rows = wanted < kMaxRows ? std::max(2, static_cast<int>(wanted) + 1) : kMaxRows;
   if (const auto& d = target.towards)
     if (const auto phase = contour_phase(d->x, d->y, d->z))
       return ContouredDome(p.radius, p.height, n, rows, *phase).make(*d);
   if (target.eye)
-    if (auto seen = elliptical_from_eye(p, target, n, rows)) return std::move(*seen);
+    if (auto contoured = elliptical_from_eye(p, target, n, rows)) return std::move(*contoured);
   std::vector<ProfilePoint> profile;
   for (int k = 0; k < rows; ++k) {
     const SinCos a = sin_cos(kPi / 2 * k / rows);
@@ -275,19 +275,19 @@ Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& tar
   const double radius = (p.radius / p.height * p.radius + p.height) / 2;
   const double from_apex = 2 * arc_tan2(p.height, p.radius);
   const double equator = p.height > p.radius ? radius : p.radius;
-  const int n = circle_segments(equator, kRimShare * target.sag, kMostDomeSegments);
+  const int n = circle_segments(equator, kRimShare * target.sag, kMaxDomeSegments);
   const int rows =
       std::max(2, arc_segments(radius, from_apex, target.sag - sagitta(equator, 2 * kPi / n),
-                               kMostDomeSegments / 2));
+                               kMaxDomeSegments / 2));
   if (target.towards)
     if (auto cap = cap_in_view(p, target, n, rows)) return std::move(*cap);
   // Of more than half a ball, the columns spread, and take more of them to come as near.
   if (target.eye)
     for (int finer = 1; finer <= 4; finer *= 2) {
-      auto seen = cap_in_view(p, target, std::min(n * finer, kMostDomeSegments),
-                              std::min(rows * finer, kMostDomeSegments / 2));
-      if (!seen) break;
-      if (seen->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*seen);
+      auto contoured = cap_in_view(p, target, std::min(n * finer, kMaxDomeSegments),
+                                   std::min(rows * finer, kMaxDomeSegments / 2));
+      if (!contoured) break;
+      if (contoured->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*contoured);
     }
   std::vector<ProfilePoint> profile{{p.radius, 0}};
   for (int k = 1; k < rows; ++k) {

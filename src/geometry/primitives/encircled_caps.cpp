@@ -155,9 +155,9 @@ class EncircledCap {
       const Vec3d across = on_row(tilt, to) - on_row(tilt, from);
       return dot(across, across);
     };
-    const double most = kSlack * widest;
+    const double largest = kSlack * widest;
     if (depth == kDeepest ||
-        std::ranges::none_of(tilts, [&](double tilt) { return chord(tilt) > most * most; }))
+        std::ranges::none_of(tilts, [&](double tilt) { return chord(tilt) > largest * largest; }))
       return;
     const double x = from.cos + to.cos, y = from.sin + to.sin, length = std::sqrt(x * x + y * y);
     const SinCos middle{y / length, x / length};

@@ -60,7 +60,7 @@ Tessellation make(const LinePrimitive& p, const TessellationTarget&) {
 
 namespace {
 
-constexpr int kMostSegments = 4096;
+constexpr int kMaxSegments = 4096;
 
 using Ring = std::vector<std::uint32_t>;
 
@@ -193,9 +193,9 @@ int segments_for(const Snout& snout, double sag, int least, const SinCos& phase)
   int n = least;
   for (;;) {
     const double reached = sag_of(snout, rim(n, phase));
-    if (reached <= sag || n >= kMostSegments) return n;
+    if (reached <= sag || n >= kMaxSegments) return n;
     const double more = std::clamp(std::sqrt(reached / sag), 1.1, 4.0);
-    n = std::min(static_cast<int>(n * more / 4 + 1) * 4, kMostSegments);
+    n = std::min(static_cast<int>(n * more / 4 + 1) * 4, kMaxSegments);
   }
 }
 
@@ -248,7 +248,7 @@ Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target) {
   double radius = widest(snout, rim(256, phase));
   if (radius < 0) return fault(kCross);
   radius = std::max({radius, p.bottom_radius, p.top_radius});
-  int n = circle_segments(radius, kRimShare * target.sag / steepness, kMostSegments);
+  int n = circle_segments(radius, kRimShare * target.sag / steepness, kMaxSegments);
   if (steepness > 1) n = segments_for(snout, target.sag, n, phase);
   const auto angles = contours ? rim_with(rim(n, phase), *contours) : rim(n, phase);
   const double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)

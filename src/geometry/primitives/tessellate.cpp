@@ -116,7 +116,7 @@ std::vector<SinCos> rim(int segments, const SinCos& phase) {
 }
 
 std::vector<SinCos> rim_of(const TessellationTarget& target, double radius, int segments) {
-  if (auto seen = rim_from_eye(target, radius)) return std::move(*seen);
+  if (auto contoured = rim_from_eye(target, radius)) return std::move(*contoured);
   return rim(segments, rim_phase(target));
 }
 

@@ -8,7 +8,7 @@
 namespace strake::geometry::tessellation {
 namespace {
 
-constexpr int kMostTorusSegments = 1024;
+constexpr int kMaxTorusSegments = 1024;
 constexpr std::string_view kBadAngle = "an angle is not positive or not finite";
 
 /// However small the sweep, a half turn in one step would be flat and a longer one inside out.
@@ -21,11 +21,11 @@ int quarter_turns(double angle) {
 RevolutionSweep sweep_of(double angle, double radius, double sag, const Mat3d& linear,
                          int least = 1) {
   if (is_full_turn(angle)) {
-    const int n = circle_segments(radius, sag, kMostTorusSegments);
+    const int n = circle_segments(radius, sag, kMaxTorusSegments);
     return {rim(n, canonical_phase(column(linear, 0), column(linear, 1))), true};
   }
   const int n =
-      std::max({least, quarter_turns(angle), arc_segments(radius, angle, sag, kMostTorusSegments)});
+      std::max({least, quarter_turns(angle), arc_segments(radius, angle, sag, kMaxTorusSegments)});
   RevolutionSweep sweep;
   for (int k = 0; k <= n; ++k) sweep.directions.push_back(sin_cos(angle * k / n));
   return sweep;
@@ -39,8 +39,8 @@ double step_of(const RevolutionSweep& sweep, double angle) {
 /// A tube that reaches its axis: the section is the circle's outer part, closed along the axis.
 Tessellation clipped(const CircularTorusPrimitive& p, const TessellationTarget& target) {
   const double half = arc_cos(-p.centre_radius / p.tube_radius);
-  const int n = std::max(
-      4, arc_segments(p.tube_radius, 2 * half, kRimShare * target.sag, kMostTorusSegments));
+  const int n =
+      std::max(4, arc_segments(p.tube_radius, 2 * half, kRimShare * target.sag, kMaxTorusSegments));
   const double rim_sag = sagitta(p.tube_radius, 2 * half / n);
   const double outer = p.centre_radius + p.tube_radius;
   const RevolutionSweep sweep = sweep_of(p.angle, outer, target.sag - rim_sag, target.linear);
@@ -98,7 +98,7 @@ class ContouredTorus {
         in_plane_(std::sqrt(towards_.x * towards_.x + towards_.y * towards_.y)) {
     const double outer = p.centre_radius + p.tube_radius;
     sweep_step_ = p_.angle / std::max({1, quarter_turns(p_.angle),
-                                       arc_segments(outer, p_.angle, rest, kMostTorusSegments)});
+                                       arc_segments(outer, p_.angle, rest, kMaxTorusSegments)});
   }
 
   [[nodiscard]] Tessellation make() {
@@ -228,10 +228,11 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
   if (!(p.angle > 0) || !std::isfinite(p.angle)) return fault(kBadAngle);
   if (p.tube_radius == 0) return fault("a torus of no thickness");
   if (p.tube_radius >= p.centre_radius) return clipped(p, target);
-  const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMostTorusSegments);
+  const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMaxTorusSegments);
   const double rim_sag = sagitta(p.tube_radius, 2 * kPi / n);
   if (target.eye)
-    if (auto seen = torus_from_eye(p, target, n, target.sag - rim_sag)) return std::move(*seen);
+    if (auto contoured = torus_from_eye(p, target, n, target.sag - rim_sag))
+      return std::move(*contoured);
   if (target.towards) return ContouredTorus(p, target, n, target.sag - rim_sag).make();
   const bool full = is_full_turn(p.angle);
   const EndPhases phases = full ? EndPhases{} : end_phases(p, target.linear, n);
@@ -247,7 +248,7 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
       const double step = p.angle / count;
       return twisted_sag(p, step, turn) + turn * step * chord * p.tube_radius / 4;
     };
-    while (bound(steps) > rest && steps < kMostTorusSegments) ++steps;
+    while (bound(steps) > rest && steps < kMaxTorusSegments) ++steps;
     sweep = sweep_of(p.angle, outer, rest, target.linear, steps);
     sweep_sag = bound(static_cast<int>(sweep.directions.size()) - 1);
   }

@@ -12,7 +12,7 @@
 namespace strake::geometry::tessellation {
 namespace {
 
-constexpr int kMostSteps = 1024;
+constexpr int kMaxSteps = 1024;
 /// How far a line of the contour may turn in its section where the section turns by one about the
 /// axis. Where it turns faster, as of a bend that is seen from low over its plane, the triangles
 /// beside it are slivers across it, which hide it in places.
@@ -33,7 +33,7 @@ class TorusFromEye {
   [[nodiscard]] std::optional<Tessellation> make(double rest) {
     const double outer = p_.centre_radius + p_.tube_radius;
     const int quarters = static_cast<int>(std::ceil(p_.angle / (kPi / 2) * (1 - 1e-6)));
-    const int steps = std::max({1, quarters, arc_segments(outer, p_.angle, rest, kMostSteps)});
+    const int steps = std::max({1, quarters, arc_segments(outer, p_.angle, rest, kMaxSteps)});
     if (!add(0)) return std::nullopt;
     for (int k = 1; k <= steps; ++k)
       if (!add_from_last(p_.angle * k / steps, 0)) return std::nullopt;
@@ -89,9 +89,9 @@ class TorusFromEye {
     const double middle = (before.angle + angle) / 2;
     const auto here = contour(angle), between = contour(middle);
     if (!here || !between) return false;
-    const double most = std::max(turn(*between, *here), turn(before.contour, *between));
-    if (most > kSteepest * (angle - middle)) return false;
-    if (most > step() / 4 && depth < kDeepest)
+    const double maximum = std::max(turn(*between, *here), turn(before.contour, *between));
+    if (maximum > kSteepest * (angle - middle)) return false;
+    if (maximum > step() / 4 && depth < kDeepest)
       return add_from_last(middle, depth + 1) && add_from_last(angle, depth + 1);
     sections_.push_back({angle, *here});
     return true;

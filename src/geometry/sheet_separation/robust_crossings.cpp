@@ -25,7 +25,7 @@ namespace strake::geometry {
 namespace {
 
 /// Work limit: steps of the traversal per triangle. Sheets that coincide everywhere take about 20.
-constexpr std::uint64_t kLeastSteps = 4096, kStepsPerTriangle = 256;
+constexpr std::uint64_t kMinSteps = 4096, kStepsPerTriangle = 256;
 
 /// Whether a triangle lies within a distance of another's plane.
 bool lies_along(const TriangleCorners& t, const TriangleCorners& other, double distance) {
@@ -56,8 +56,8 @@ class Gatherer {
  private:
   bool walk() {
     const double reach = distance_ * distance_;
-    const std::uint64_t most =
-        kLeastSteps + kStepsPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size());
+    const std::uint64_t limit =
+        kMinSteps + kStepsPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size());
     DistanceTraversal walk(a_, b_, work_, reach);
     walk.start(reach);
     return walk.run(
@@ -66,7 +66,7 @@ class Gatherer {
                  add(near);
                  return true;
                },
-               most) == TraversalEnd::done;
+               limit) == TraversalEnd::done;
   }
 
   void add(const NearTrianglePair& near) {
@@ -132,8 +132,8 @@ namespace {
 /// neighbours from moving. A heavy pair, of which not all pieces are known at first, has one
 /// attempt for either side, and one more. Sheets of 100,000 and 400,000 triangles that lie on each
 /// other all over take 6.0 CPU s, and 1.7 where no attempt is made (decision 0019).
-constexpr std::size_t kMostPieces = std::size_t{1} << 18U;
-constexpr int kMostAttempts = 8, kMostAttemptsIfHeavy = 3;
+constexpr std::size_t kMaxPieces = std::size_t{1} << 18U;
+constexpr int kMaxAttempts = 8, kMaxAttemptsIfHeavy = 3;
 /// Longest displacement, grid units: sheets that need longer ones have meaningless numbers.
 constexpr double kLongestMove = 1 << 20;
 
@@ -232,8 +232,8 @@ class Parting {
   /// Returns the displaced sheet if it crosses less, and reduces the segments to those left.
   std::optional<MovedSheet> run(IntersectionSegments& pieces) {
     if (!choose(pieces)) return std::nullopt;
-    const int most = pieces.truncated ? kMostAttemptsIfHeavy : kMostAttempts;
-    for (int attempt = 0; attempt < most; ++attempt) {
+    const int limit = pieces.truncated ? kMaxAttemptsIfHeavy : kMaxAttempts;
+    for (int attempt = 0; attempt < limit; ++attempt) {
       MovedSheet moved = moved_sheet();
       if (!fits_pair({&moved.part, placed_.origin}, mover_.other(treed_a_, treed_b_).placed))
         return std::nullopt;
@@ -356,8 +356,8 @@ class Parting {
           fail_at(t, sheet);
       return moving_ == 0;
     };
-    IntersectionSegments left = find_intersection_segments(a, b, kMostPieces, work_, note);
-    // Of those along areas that lie on the other sheet exactly it is told in the end.
+    IntersectionSegments left = find_intersection_segments(a, b, kMaxPieces, work_, note);
+    // Of those along areas that lie on the other sheet exactly that is decided in the end.
     for (const IntersectionSegment& piece : left.all) note(piece);
     return left;
   }
@@ -428,7 +428,7 @@ class Parting {
 
 IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBvh& b,
                                           IntersectionSegments pieces, double within,
-                                          std::size_t most, QueryContext& work) {
+                                          std::size_t limit, QueryContext& work) {
   if (!(within >= 1) || within > kLongestMove || pieces.all.empty()) return pieces;
   const auto moved_a = Parting(a, b, {.is_b = false}, within, work).run(pieces);
   // Of a heavy pair one view has to do.
@@ -437,18 +437,18 @@ IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBv
         moved_a ? PartWithBvh{{&moved_a->part, a.placed.origin}, &moved_a->tree} : a;
     Parting(other, b, {.is_b = true}, within, work).run(pieces);
   }
-  if (pieces.all.size() > most) {
-    pieces.all.resize(most);
+  if (pieces.all.size() > limit) {
+    pieces.all.resize(limit);
     pieces.truncated = true;
   }
   return pieces;
 }
 
 SheetIntersection find_sheet_intersection(const PartWithBvh& a, const PartWithBvh& b, double within,
-                                          std::size_t most, QueryContext& work) {
+                                          std::size_t limit, QueryContext& work) {
   const PairLocalPart view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
-  const IntersectionSegments pieces =
-      keep_robust_segments(a, b, find_intersection_segments(a, b, most, work), within, most, work);
+  const IntersectionSegments pieces = keep_robust_segments(
+      a, b, find_intersection_segments(a, b, limit, work), within, limit, work);
   SheetIntersection curve{
       .segments = {}, .pieces = {}, .crosses = !pieces.all.empty(), .truncated = pieces.truncated};
   for (const IntersectionSegment& piece : pieces.all) {

@@ -61,7 +61,7 @@ struct ProximityPatches {
 /// are none.
 [[nodiscard]] IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBvh& b,
                                                         IntersectionSegments pieces, double within,
-                                                        std::size_t most, QueryContext& work);
+                                                        std::size_t limit, QueryContext& work);
 
 /// Where two sheets cross: segments in grid units relative to a's origin.
 struct SheetIntersection {
@@ -75,7 +75,7 @@ struct SheetIntersection {
 /// Returns the segments of find_intersection_segments() that displacements of up to `within` grid
 /// units do not undo (keep_robust_segments()): the set is exact, the positions are rounded.
 [[nodiscard]] SheetIntersection find_sheet_intersection(const PartWithBvh& a, const PartWithBvh& b,
-                                                        double within, std::size_t most,
+                                                        double within, std::size_t limit,
                                                         QueryContext& work);
 
 }  // namespace strake::geometry

@@ -24,10 +24,10 @@ struct DisplacementConstraint {
 };
 
 /// Returns displacements in all directions, each as long as allowed or slightly shorter.
-std::vector<Vec3i> moves_up_to(double most) {
+std::vector<Vec3i> moves_up_to(double limit) {
   // Of the contact distance of sound numbers, 3, these are all the moves there are.
-  const int r = std::clamp(static_cast<int>(most), 1, 4);
-  const double step = most / r;
+  const int r = std::clamp(static_cast<int>(limit), 1, 4);
+  const double step = limit / r;
   std::vector<Vec3i> moves;
   for (int x = -r; x <= r; ++x)
     for (int y = -r; y <= r; ++y)
@@ -41,15 +41,15 @@ Vec3i best_move(std::span<const DisplacementConstraint> constraints,
                 const std::vector<Vec3i>& moves) {
   const bool led = std::ranges::any_of(constraints, &DisplacementConstraint::leads);
   Vec3i best;
-  double most = -std::numeric_limits<double>::infinity();
+  double limit = -std::numeric_limits<double>::infinity();
   for (const Vec3i& move : moves) {
     const Vec3d way = move.as<double>();
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < constraints.size() && least > most; ++i)
+    for (std::size_t i = 0; i < constraints.size() && least > limit; ++i)
       if (constraints[i].leads || constraints[i].besides || !led)
         least = std::min(least, dot(constraints[i].way, way));
-    if (least > most) {
-      most = least;
+    if (least > limit) {
+      limit = least;
       best = move;
     }
   }
@@ -61,7 +61,7 @@ Vec3i best_move(std::span<const DisplacementConstraint> constraints,
 std::vector<VertexDisplacement> vertex_displacements(const Part& part,
                                                      std::span<const MovingTriangle> triangles,
                                                      std::span<const VertexDirection> ways,
-                                                     double most) {
+                                                     double limit) {
   std::vector<DisplacementConstraint> constraints;
   constraints.reserve(3 * triangles.size() + ways.size());
   for (const MovingTriangle& t : triangles) {
@@ -74,7 +74,7 @@ std::vector<VertexDisplacement> vertex_displacements(const Part& part,
   }
   for (const VertexDirection& w : ways) constraints.push_back({w.vertex, false, true, w.way});
   std::ranges::sort(constraints, {}, &DisplacementConstraint::vertex);
-  const std::vector<Vec3i> moves = moves_up_to(most);
+  const std::vector<Vec3i> moves = moves_up_to(limit);
   std::vector<VertexDisplacement> all;
   for (std::size_t i = 0; i < constraints.size();) {
     std::size_t end = i + 1;
@@ -95,9 +95,9 @@ bool is_near(const DoubleSegment& s, const Vec3d& corner, double distance) {
 /// Whether a segment is near the line through two points.
 bool is_near(const DoubleSegment& s, const Vec3d& from, const Vec3d& to, double distance) {
   const Vec3d along = to - from;
-  const double most = distance * length(along);
+  const double limit = distance * length(along);
   return std::ranges::all_of(
-      s, [&](const Vec3d& p) { return length(cross(along, p - from)) <= most; });
+      s, [&](const Vec3d& p) { return length(cross(along, p - from)) <= limit; });
 }
 
 }  // namespace

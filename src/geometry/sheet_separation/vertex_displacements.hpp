@@ -32,12 +32,12 @@ struct VertexDisplacement {
 };
 
 /// Returns for each vertex of the triangles, ascending, an integer displacement no longer than
-/// `most` grid units (at least 1) that takes it farthest off all the planes that count there, each
+/// `limit` grid units (at least 1) that takes it farthest off all the planes that count there, each
 /// to its side, and along all its `ways`: the one that maximises the minimum of these. The result
 /// does not depend on the numbering of the triangles or the order of their corners.
 [[nodiscard]] std::vector<VertexDisplacement> vertex_displacements(
     const Part& part, std::span<const MovingTriangle> triangles,
-    std::span<const VertexDirection> ways, double most);
+    std::span<const VertexDirection> ways, double limit);
 
 /// Returns the vertices with which a triangle of an intersection segment, of b or of a, reaches
 /// slightly through the other triangle, by a corner or an edge, each with the direction back.

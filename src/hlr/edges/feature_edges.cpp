@@ -177,7 +177,7 @@ void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, 
   e.a = std::min(part.vertices[v0], part.vertices[v1]);
   e.b = std::max(part.vertices[v0], part.vertices[v1]);
   if (e.a == e.b) return;
-  e.projecting = viewer.sees_as_point(e.a.as<std::int64_t>(), e.b.as<std::int64_t>());
+  e.projecting = viewer.projects_to_point(e.a.as<std::int64_t>(), e.b.as<std::int64_t>());
   edges.push_back(e);
 }
 

@@ -37,7 +37,7 @@ using parallel::Region;
 constexpr std::size_t kGrain = 1024;
 /// The most intersection lines, and more of them for each triangle: many times what models have,
 /// and in proportion to the file, where triangles that all cross each other have the square.
-constexpr std::uint64_t kMostLines = 1000000, kMostLinesOfTriangle = 100;
+constexpr std::uint64_t kMaxLines = 1000000, kMaxLinesOfTriangle = 100;
 
 /// A part that has faces, with its place.
 struct PlacedSurface {
@@ -155,8 +155,8 @@ class IntersectionSearch {
   }
 
   /// Returns whether the lines that are drawn with the object of a part are wanted.
-  [[nodiscard]] bool is_asked(std::size_t i) const {
-    return rule_.asked.empty() || rule_.asked[model::index(object(surfaces_.placed[i]))];
+  [[nodiscard]] bool is_to_solve(std::size_t i) const {
+    return rule_.to_solve.empty() || rule_.to_solve[model::index(object(surfaces_.placed[i]))];
   }
 
   /// Returns a number that is equal for parts that are not to be paired, as far as each alone
@@ -277,7 +277,7 @@ class IntersectionSearch {
           for (const std::uint32_t x : stacks->of(pair.first))
             for (const std::uint32_t y : stacks->of(pair.second))
               if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]) &&
-                  is_asked(std::min(x, y)))
+                  is_to_solve(std::min(x, y)))
                 out.push_back({std::min(x, y), std::max(x, y)});
         });
     if (!pairs) return pairs.error();
@@ -352,16 +352,16 @@ class IntersectionSearch {
     const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
       return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
     });
-    const std::uint64_t most = most_lines();
-    parallel::Allowance allowance(most);
+    const std::uint64_t limit = max_lines();
+    parallel::Allowance allowance(limit);
     return parallel::transform(
         context_, {.name = "intersections: lines", .n = some.size(), .order = order},
         [&](std::size_t k) -> Result<PairIntersection> {
           const std::size_t i = some[k];
           geometry::QueryContext work;
           auto lines =
-              part_intersection_lines_up_to(most, whole(a(i)), whole(b(i)), contact(i), work);
-          if (!lines || !allowance.take(lines->size())) return too_many(most);
+              part_intersection_lines_up_to(limit, whole(a(i)), whole(b(i)), contact(i), work);
+          if (!lines || !allowance.take(lines->size())) return too_many(limit);
           if (!is_joint(i)) return PairIntersection{std::move(*lines), work.triangle_pairs};
           auto edges =
               joint_lines(a(i).placed, b(i).placed, contact(i), rule_.cos_sharp, std::move(*lines));
@@ -370,18 +370,18 @@ class IntersectionSearch {
         });
   }
 
-  static Error too_many(std::uint64_t most) {
+  static Error too_many(std::uint64_t limit) {
     return {ErrorCode::input,
-            "parts cross each other along more than " + std::to_string(most) + " lines",
+            "parts cross each other along more than " + std::to_string(limit) + " lines",
             {},
             "draw fewer objects at a time, or leave these lines out (--intersections off)"};
   }
 
-  [[nodiscard]] std::uint64_t most_lines() const {
+  [[nodiscard]] std::uint64_t max_lines() const {
     std::uint64_t triangles = 0;
     for (const PlacedSurface& surface : surfaces_.placed)
       triangles += surface.placed.part->triangles.size();
-    return kMostLines + kMostLinesOfTriangle * triangles;
+    return kMaxLines + kMaxLinesOfTriangle * triangles;
   }
 
   /// Places the lines by pair, and so by object of the first part.
@@ -390,7 +390,7 @@ class IntersectionSearch {
     // Equal pairs that stand in many places count each time.
     std::uint64_t lines = 0;
     for (const std::uint32_t kind : kinds.of) lines += found[kind].lines.size();
-    if (lines > most_lines()) return too_many(most_lines());
+    if (lines > max_lines()) return too_many(max_lines());
     auto placed = parallel::count_fill<IntersectionLine>(
         context_, {.name = "intersections: places", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i) { return found[kinds.of[i]].lines.size(); },

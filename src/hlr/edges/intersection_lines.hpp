@@ -29,7 +29,7 @@ struct IntersectionRule {
   Intersections which = Intersections::objects;
   double cos_sharp = 1;  ///< primitives of one object intersect where their skins turn by more
   /// By object: the lines that are drawn with it are wanted. Empty: those of all objects.
-  std::vector<bool> asked = {};
+  std::vector<bool> to_solve = {};
 };
 
 /// Finds the intersection lines among the drawn objects. `contact`: by body, the distance within

@@ -22,7 +22,7 @@ using geometry::Vec3l;
 
 /// Half the diagonal of a grid cell: the farthest that the snap moves a corner, grid units.
 constexpr double kSnapMove = 0.8660254037844386;
-constexpr double kMostTurn = 0.0044;  // a quarter of a degree
+constexpr double kMaxTurn = 0.0044;  // a quarter of a degree
 
 std::array<double, 3> squared_sides(const Part& part, std::uint32_t t) {
   std::array<double, 3> sides{};
@@ -56,7 +56,7 @@ class Owners {
   explicit Owners(const Part& part) : part_(part), within_(2 + part.weld) {
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
       const bool alone = part.faces.empty() || part.faces[t] == geometry::kNoIndex;
-      if (alone && turn_by_rounding(part, t) >= kMostTurn) slivers_.push_back(t);
+      if (alone && turn_by_rounding(part, t) >= kMaxTurn) slivers_.push_back(t);
     }
   }
 
@@ -116,15 +116,15 @@ class Owners {
     std::vector<Owned> found;
     for (const std::uint32_t t : slivers) {
       Owned best{t, t, false};
-      double most = 0;
+      double largest = 0;
       each_beside(t, [&](std::uint32_t other, bool wound_differently) {
         const std::uint32_t owner = owners_.of[other];
         if (known_[other] == 0 || !is_near_plane(t, owner)) return;
         const bool turned = wound_differently != (owners_.turned[other] != 0);
         const double along = turned ? -cosine(t, owner) : cosine(t, owner);
-        if (best.owner != t && !(along > most)) return;
+        if (best.owner != t && !(along > largest)) return;
         best = {t, owner, turned};
-        most = along;
+        largest = along;
       });
       if (best.owner != t) found.push_back(best);
     }
@@ -171,7 +171,7 @@ double turn_by_rounding(const Part& part, std::uint32_t triangle) {
   const double longest = *std::max_element(sides.begin(), sides.end());
   const double moved = 2 * (kSnapMove + part.weld);
   const double squared = moved * moved * longest, size = dot(area, area);
-  if (!(squared < kMostTurn * kMostTurn * size)) return kMostTurn;
+  if (!(squared < kMaxTurn * kMaxTurn * size)) return kMaxTurn;
   return std::sqrt(squared / size);
 }
 

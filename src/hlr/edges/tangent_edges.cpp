@@ -49,7 +49,7 @@ class FlatFaces {
     std::uint32_t f = of_[round[0]], g = of_[round[1]];
     if (size(f) > size(g)) std::swap(f, g);
     const double turn = turn_at(edge);
-    const double at_f = most_beside(f, turn), at_g = most_beside(g, turn);
+    const double at_f = max_beside(f, turn), at_g = max_beside(g, turn);
     if (at_f < 0 && at_g < 0) return true;
     // No more corners of the larger face are examined than the decision takes.
     const double far = reach(f, edge);
@@ -90,9 +90,9 @@ class FlatFaces {
       normal = n;
       on = part_.vertices[part_.triangles[members_[m]][0]].as<double>();
     }
-    const double most = kEven * std::sqrt(dot(normal, normal));
+    const double largest = kEven * std::sqrt(dot(normal, normal));
     return !any_corner(face, [&](const geometry::Vec3i& p) {
-      return std::fabs(dot(normal, p.as<double>() - on)) > most;
+      return std::fabs(dot(normal, p.as<double>() - on)) > largest;
     });
   }
   [[nodiscard]] bool is_of_source(std::uint32_t face) const {
@@ -102,7 +102,7 @@ class FlatFaces {
   }
   /// Returns the width across of the widest triangle of a face.
   [[nodiscard]] double width_of_widest(std::uint32_t face) const {
-    double most = 0;
+    double largest = 0;
     for (std::uint32_t m = first_[face]; m < first_[face + 1]; ++m) {
       const geometry::Triangle& t = part_.triangles[members_[m]];
       double longest = 0;
@@ -112,16 +112,16 @@ class FlatFaces {
         longest = std::max(longest, dot(side, side));
       }
       const Vec3d n = normal_at(members_[m]);
-      most = std::max(most, dot(n, n) / longest);
+      largest = std::max(largest, dot(n, n) / longest);
     }
-    return std::sqrt(most);
+    return std::sqrt(largest);
   }
 
   static bool is_like(double turn, double beside) { return beside < 0 || turn <= kLike * beside; }
 
   /// The largest turns at smooth edges of a face.
   struct Turns {
-    double most = -1, second = -1;
+    double largest = -1, second = -1;
   };
 
   [[nodiscard]] bool turns(const PartEdge& e, std::span<const std::uint32_t> round) const {
@@ -172,15 +172,15 @@ class FlatFaces {
     const double turn = turn_at(edge);
     for (const std::uint32_t t : geometry::incident_triangles(part_, edge)) {
       Turns& of_face = turns_[of_[t]];
-      of_face.second = std::max(of_face.second, std::min(turn, of_face.most));
-      of_face.most = std::max(of_face.most, turn);
+      of_face.second = std::max(of_face.second, std::min(turn, of_face.largest));
+      of_face.largest = std::max(of_face.largest, turn);
     }
   }
   /// Returns the largest turn at a smooth edge of a face other than one with this turn; negative:
   /// none.
-  [[nodiscard]] double most_beside(std::uint32_t face, double turn) const {
+  [[nodiscard]] double max_beside(std::uint32_t face, double turn) const {
     const Turns& of_face = turns_[face];
-    return of_face.most > turn ? of_face.most : of_face.second;
+    return of_face.largest > turn ? of_face.largest : of_face.second;
   }
 
   template <class Visit>

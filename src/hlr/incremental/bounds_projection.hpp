@@ -21,7 +21,7 @@ class BoundsProjection {
   /// `drawn`: the box of all that is drawn.
   BoundsProjection(const View& view, const geometry::Box3l& drawn);
 
-  /// Returns whether a box is so near to what is drawn that its place on paper can be told.
+  /// Returns whether a box is so near to what is drawn that its place on paper can be known.
   [[nodiscard]] bool reaches(const geometry::Box3l& box) const;
 
   /// Returns the box on paper of what may hide in a box of the model; empty where nothing can, as

@@ -26,7 +26,7 @@
 namespace strake::hlr {
 namespace {
 
-constexpr std::string_view kMostOfIt = "what changed reaches most of the drawing";
+constexpr std::string_view kMaxOfIt = "what changed reaches most of the drawing";
 
 /// Returns why a view is drawn in full whatever changed; empty where it is not.
 std::string_view reason_for_all(const Options& options) {
@@ -45,7 +45,7 @@ bool describes_all(const EarlierDrawing& earlier) {
          drawing.clipped_left_out.size() == (drawing.options.clipped ? 0 : objects);
 }
 
-/// What draw_changes() is asked for.
+/// What is requested of draw_changes().
 struct RedrawRequest {
   const model::Scene& scene;
   const std::vector<bool>& drawn;
@@ -63,13 +63,13 @@ Result<Redrawn> draw_all(const RedrawRequest& request, std::string_view why,
   return redrawn;
 }
 
-/// Solves the lines of the objects that are asked for.
+/// Solves the lines of the objects that are requested.
 Result<Drawing> draw_part(const ChangedView& changed, const ChangeReach& reach,
                           const parallel::Context& context) {
   const PartialScene part = scene_of(changed.scene, reach.needed);
   WholeView whole = changed.whole;
   whole.tessellation = part.plan(changed.tessellation);
-  whole.asked = reach.asked;
+  whole.to_solve = reach.to_solve;
   return solve_part({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
 }
 
@@ -117,7 +117,7 @@ Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
 
 /// Returns the objects whose lines were found anew, and those that may have lost theirs.
 std::vector<bool> touched_objects(const ChangedView& changed, const ChangeReach& reach) {
-  std::vector<bool> touched = reach.asked;
+  std::vector<bool> touched = reach.to_solve;
   for (std::size_t o = 0; o < touched.size(); ++o)
     touched[o] = touched[o] || changed.comparison.before[o] == model::kNoObject;
   return touched;
@@ -129,7 +129,7 @@ Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reac
                              const parallel::Context& context) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
-  const ResolvedLines resolved{reach.asked, part};
+  const ResolvedLines resolved{reach.to_solve, part};
   if (const Status s = merge_lines(changed.comparison, resolved, drawing, context); !s)
     return s.error();
   if (const Status s = merge_account(changed.scene, changed.drawn, changed.comparison, resolved,
@@ -137,7 +137,7 @@ Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reac
       !s)
     return s.error();
   redrawn.edges_solved = part.counters.feature_edges;
-  redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.asked, true));
+  redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.to_solve, true));
   if (changed.comparison.same_numbers) redrawn.touched = touched_objects(changed, reach);
   drawing.counters = part.counters;
   drawing.diagnostics = changed.sections ? changed.sections->diagnostics : Diagnostics();
@@ -189,7 +189,7 @@ Result<Redrawn> draw_what_changed(const RedrawRequest& request, ComparedDrawing 
                             whole->view_of(hatches),
                             std::move(*sections)};
   const auto reach = find_reach(changed, context);
-  if (reach && reach->reaches_most) return draw_all(request, kMostOfIt, context);
+  if (reach && reach->reaches_most) return draw_all(request, kMaxOfIt, context);
   const auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
   if (!part) {
     if (part.error().code == ErrorCode::cancelled) return part.error();

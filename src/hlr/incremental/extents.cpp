@@ -68,15 +68,16 @@ struct Bounds {
 
 /// Returns the box of some objects as the view tessellates them.
 Result<Box3l> box_in_view(const model::Scene& scene, const std::vector<bool>& objects,
-                          const model::ViewTessellationOptions& seen_by,
+                          const model::ViewTessellationOptions& tessellation_options,
                           const model::ViewTessellation& plan, const parallel::Context& context) {
   const PartialScene part = scene_of(scene, objects);
-  auto own = model::tessellate_for_view(part.scene, objects, seen_by, part.plan(plan), context);
+  auto own = model::tessellate_for_view(part.scene, objects, tessellation_options, part.plan(plan),
+                                        context);
   if (!own) return own.error();
-  const model::Scene& seen = *own ? **own : part.scene;
+  const model::Scene& shown = *own ? **own : part.scene;
   Box3l box = geometry::empty_box<std::int64_t>();
-  for (const model::GridBody& body : seen.bodies) {
-    const model::GridShape& shape = seen.shapes[body.grid_shape];
+  for (const model::GridBody& body : shown.bodies) {
+    const model::GridShape& shape = shown.shapes[body.grid_shape];
     if (!shape.box.empty()) box.include(body.box(shape));
   }
   return box;
@@ -118,7 +119,7 @@ Result<std::vector<Box3l>> object_extents(const model::Scene& scene, const std::
 
 Result<DrawnExtent> drawn_extent(const model::Scene& scene, const std::vector<bool>& drawn,
                                  std::span<const ShapeExtent> shapes,
-                                 const model::ViewTessellationOptions& seen_by,
+                                 const model::ViewTessellationOptions& tessellation_options,
                                  const model::ViewTessellation& plan, const Options& options,
                                  const parallel::Context& context) {
   const auto bounds = parallel::reduce(
@@ -149,7 +150,7 @@ Result<DrawnExtent> drawn_extent(const model::Scene& scene, const std::vector<bo
   if (outmost->empty()) return extent;
   std::vector<bool> objects(scene.model->objects.size());
   for (const std::uint32_t object : *outmost) objects[object] = true;
-  const auto box = box_in_view(scene, objects, seen_by, plan, context);
+  const auto box = box_in_view(scene, objects, tessellation_options, plan, context);
   if (!box) return box.error();
   extent.box.include(*box);
   return extent;
@@ -160,16 +161,16 @@ WholeView WholeExtent::view_of(std::span<const Hatch> hatches) const {
           .longest_side = static_cast<double>(drawn.longest_side),
           .tessellation = {},
           .hatches = hatches,
-          .asked = {}};
+          .to_solve = {}};
 }
 
 Result<WholeExtent> whole_extent(const model::Scene& scene, const std::vector<bool>& drawn,
                                  const View& view, const Options& options,
                                  const parallel::Context& context) {
-  const auto seen_by = tessellation_of(view, options);
-  if (!seen_by) return seen_by.error();
+  const auto tessellation_options = tessellation_of(view, options);
+  if (!tessellation_options) return tessellation_options.error();
   WholeExtent whole;
-  auto plan = plan_view_tessellation(scene, drawn, *seen_by, context);
+  auto plan = plan_view_tessellation(scene, drawn, *tessellation_options, context);
   if (!plan) return plan.error();
   whole.tessellation = std::move(*plan);
   const auto shapes = shape_extents(scene, context);
@@ -177,8 +178,8 @@ Result<WholeExtent> whole_extent(const model::Scene& scene, const std::vector<bo
   auto boxes = object_extents(scene, drawn, view, *shapes, context);
   if (!boxes) return boxes.error();
   whole.boxes = std::move(*boxes);
-  const auto extent =
-      drawn_extent(scene, drawn, *shapes, *seen_by, whole.tessellation, options, context);
+  const auto extent = drawn_extent(scene, drawn, *shapes, *tessellation_options, whole.tessellation,
+                                   options, context);
   if (!extent) return extent.error();
   whole.drawn = *extent;
   const bool finer = whole.tessellation.any && options.sag_mm > 0;

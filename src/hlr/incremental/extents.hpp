@@ -48,7 +48,7 @@ struct DrawnExtent {
 /// those that may reach farthest are made. Errors: cancelled.
 [[nodiscard]] Result<DrawnExtent> drawn_extent(
     const model::Scene& scene, const std::vector<bool>& drawn, std::span<const ShapeExtent> shapes,
-    const model::ViewTessellationOptions& seen_by, const model::ViewTessellation& plan,
+    const model::ViewTessellationOptions& tessellation_options, const model::ViewTessellation& plan,
     const Options& options, const parallel::Context& context);
 
 /// What the parts of a view have to know of all that is drawn.

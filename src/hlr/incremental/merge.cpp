@@ -95,11 +95,11 @@ struct ObjectRun {
 
 /// Returns the objects with lines, in order.
 std::vector<ObjectRun> object_runs_of(const Comparison& comparison,
-                                      const std::vector<bool>& asked) {
+                                      const std::vector<bool>& to_solve) {
   std::vector<ObjectRun> all;
   const auto& before = comparison.before;
   for (std::uint32_t o = 0; o < before.size(); ++o) {
-    const bool fresh = asked[o];
+    const bool fresh = to_solve[o];
     if (!fresh && before[o] == model::kNoObject) continue;
     ObjectRun* const last = all.empty() ? nullptr : &all.back();
     const bool goes_on = last != nullptr && last->fresh == fresh && last->last == o &&
@@ -211,12 +211,12 @@ Status merge_curves(const Comparison& comparison, const ResolvedLines& resolved,
 
 /// Returns values by object now, from those of the earlier drawing and those that are new.
 template <class T>
-std::vector<T> merged(const Comparison& comparison, const std::vector<bool>& asked,
+std::vector<T> merged(const Comparison& comparison, const std::vector<bool>& to_solve,
                       const std::vector<T>& earlier, const std::vector<T>& fresh) {
   std::vector<T> now(comparison.before.size());
   for (std::size_t o = 0; o < now.size(); ++o) {
     const std::uint32_t before = comparison.before[o];
-    if (asked[o])
+    if (to_solve[o])
       now[o] = fresh[o];
     else if (before != model::kNoObject)
       now[o] = earlier[before];
@@ -239,18 +239,19 @@ std::uint64_t count_in_part(const model::Scene& scene, const std::vector<bool>& 
 
 Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, Drawing& earlier,
                    const parallel::Context& context) {
-  const std::vector<ObjectRun> object_runs = object_runs_of(comparison, resolved.asked);
+  const std::vector<ObjectRun> object_runs = object_runs_of(comparison, resolved.to_solve);
   const std::size_t objects = earlier.counted.size();
   if (Status s = merge_pieces(comparison, resolved, object_runs, earlier, context); !s) return s;
   if (Status s = merge_curves(comparison, resolved, object_runs, earlier.curves, objects, context);
       !s)
     return s;
-  earlier.counted = merged(comparison, resolved.asked, earlier.counted, resolved.drawing.counted);
+  earlier.counted =
+      merged(comparison, resolved.to_solve, earlier.counted, resolved.drawing.counted);
   if (!earlier.options.hidden)
     earlier.left_out =
-        merged(comparison, resolved.asked, earlier.left_out, resolved.drawing.left_out);
+        merged(comparison, resolved.to_solve, earlier.left_out, resolved.drawing.left_out);
   if (!earlier.options.clipped)
-    earlier.clipped_left_out = merged(comparison, resolved.asked, earlier.clipped_left_out,
+    earlier.clipped_left_out = merged(comparison, resolved.to_solve, earlier.clipped_left_out,
                                       resolved.drawing.clipped_left_out);
   return {};
 }
@@ -258,21 +259,21 @@ Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, 
 Status merge_account(const model::Scene& scene, const std::vector<bool>& drawn,
                      const Comparison& comparison, const ResolvedLines& resolved, Drawing& drawing,
                      const parallel::Context& context) {
-  auto fresh = account_of(scene, resolved.asked, resolved.drawing, context);
+  auto fresh = account_of(scene, resolved.to_solve, resolved.drawing, context);
   if (!fresh) return fresh.error();
   Account& account = drawing.account;
   const auto now = numbers_now(comparison, account.fates.size());
   std::vector<Defect> kept, defects;
   for (Defect defect : account.defects) {
     const std::uint32_t object = now[model::index(defect.object)];
-    if (object == model::kNoObject || resolved.asked[object]) continue;
+    if (object == model::kNoObject || resolved.to_solve[object]) continue;
     defect.object = model::ObjectId{object};
     kept.push_back(defect);
   }
   std::ranges::merge(kept, fresh->defects, std::back_inserter(defects), {}, &Defect::object,
                      &Defect::object);
   account.defects = std::move(defects);
-  account.fates = merged(comparison, resolved.asked, account.fates, fresh->fates);
+  account.fates = merged(comparison, resolved.to_solve, account.fates, fresh->fates);
   account.count = {};
   for (const Fate fate : account.fates) ++account.count[static_cast<std::size_t>(fate)];
   account.in_part = count_in_part(scene, drawn);

@@ -14,12 +14,12 @@ namespace strake::hlr {
 
 /// Lines that were found anew, and whose they are.
 struct ResolvedLines {
-  const std::vector<bool>& asked;  ///< by object
-  const Drawing& drawing;          ///< its pieces, curves and counts are those of these objects
+  const std::vector<bool>& to_solve;  ///< by object
+  const Drawing& drawing;             ///< its pieces, curves and counts are those of these objects
 };
 
 /// Makes of an earlier drawing that of the objects now: pieces, curves and counts of lines. Objects
-/// that are neither asked for nor in the earlier drawing have none. Errors: cancelled.
+/// that are neither requested nor in the earlier drawing have none. Errors: cancelled.
 [[nodiscard]] Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved,
                                  Drawing& earlier, const parallel::Context& context);
 

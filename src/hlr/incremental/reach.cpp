@@ -21,7 +21,7 @@ using geometry::Box3l;
 // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
 constexpr std::size_t kObjectsAtOnce = 1024;
 /// Where more than this share of the bodies is needed, all are as quick.
-constexpr double kMostShare = 0.5;
+constexpr double kMaxShare = 0.5;
 /// What a change means for an object, as far as it is known before its lines are.
 enum class ChangeImpact : std::uint8_t {
   none,
@@ -68,9 +68,9 @@ class ReachSearch {
     if (reach.reaches_most = is_most(candidates); reach.reaches_most) return reach;
     const auto edges = find_edges(candidates);
     if (!edges) return edges.error();
-    reach.asked.resize(candidates.size());
+    reach.to_solve.resize(candidates.size());
     for (const ObjectEdges& one : *edges)
-      reach.asked[one.object] = one.reached || (*impacts)[one.object] == ChangeImpact::sure;
+      reach.to_solve[one.object] = one.reached || (*impacts)[one.object] == ChangeImpact::sure;
     if (const Status status = find_needed(*edges, reach); !status) return status.error();
     reach.reaches_most = is_most(reach.needed);
     return reach;
@@ -128,7 +128,7 @@ class ReachSearch {
     for (std::size_t o = 0; o < objects.size(); ++o)
       if (objects[o]) bodies += changed_.scene.first_body[o + 1] - changed_.scene.first_body[o];
     return static_cast<double>(bodies) >
-           kMostShare * static_cast<double>(changed_.scene.bodies.size());
+           kMaxShare * static_cast<double>(changed_.scene.bodies.size());
   }
 
   /// Finds the edges and lines of some objects. The lines are those that these objects alone make:
@@ -138,7 +138,7 @@ class ReachSearch {
     const PartialScene part = scene_of(changed_.scene, objects);
     WholeView whole = changed_.whole;
     whole.tessellation = part.plan(changed_.tessellation);
-    whole.asked = objects;
+    whole.to_solve = objects;
     const Result<ViewJob> job =
         prepare_view({part.scene, objects, changed_.view, changed_.options, &whole}, context_);
     if (!job) return job.error();
@@ -175,20 +175,20 @@ class ReachSearch {
     return all;
   }
 
-  /// Finds what crosses the objects that are asked for and is drawn after them.
+  /// Finds what crosses the objects that are requested and is drawn after them.
   [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const ChangeReach& reach) const {
     if (!crosses_) return std::vector<Crossing>{};
-    const std::vector<std::uint32_t> numbers = parallel::keys_of(reach.asked);
+    const std::vector<std::uint32_t> numbers = parallel::keys_of(reach.to_solve);
     std::vector<Box3l> boxes;
     for (const std::uint32_t object : numbers) boxes.push_back(changed_.boxes[object]);
-    const SolidBoxes asked(std::move(boxes));
+    const SolidBoxes to_solve(std::move(boxes));
     return parallel::collect<Crossing>(
         context_,
         {.name = "what crosses changes", .n = changed_.boxes.size(), .grain = kObjectsAtOnce},
         [&](std::size_t o, std::vector<Crossing>& out) {
           const auto object = static_cast<std::uint32_t>(o);
           const Box3l& box = changed_.boxes[o];
-          asked.for_each_that_meets(box, [&](std::uint32_t i) {
+          to_solve.for_each_that_meets(box, [&](std::uint32_t i) {
             if (numbers[i] < object)
               out.push_back(
                   {object,
@@ -198,17 +198,17 @@ class ReachSearch {
         });
   }
 
-  [[nodiscard]] bool may_hide(const OccludeeTree& asked, std::size_t object) const {
+  [[nodiscard]] bool may_hide(const OccludeeTree& to_solve, std::size_t object) const {
     const Box3l& box = changed_.boxes[object];
     if (box.empty()) return false;
     const auto& perspective = changed_.view.perspective;
     // What the eye lies in is reported.
     if (perspective && box.contains({perspective->eye, perspective->eye})) return true;
-    return hides_ && asked.may_be_hidden_by(paper_.box_of(box));
+    return hides_ && to_solve.may_be_hidden_by(paper_.box_of(box));
   }
 
   Status find_needed(const std::vector<ObjectEdges>& edges, ChangeReach& reach) const {
-    reach.needed = reach.asked;
+    reach.needed = reach.to_solve;
     const auto crossings = find_crossings(reach);
     if (!crossings) return crossings.error();
     std::vector<SegmentQuery> queries;
@@ -217,14 +217,15 @@ class ReachSearch {
       if (!crossing.box.empty()) queries.push_back(anything_in(crossing.box));
     }
     for (const ObjectEdges& one : edges)
-      if (reach.asked[one.object])
+      if (reach.to_solve[one.object])
         queries.insert(queries.end(), one.queries.begin(), one.queries.end());
-    const OccludeeTree asked(std::move(queries));
+    const OccludeeTree to_solve(std::move(queries));
     const auto hiding = parallel::collect<std::uint32_t>(
         context_,
         {.name = "what hides changes", .n = changed_.boxes.size(), .grain = kObjectsAtOnce},
         [&](std::size_t o, std::vector<std::uint32_t>& out) {
-          if (!reach.needed[o] && may_hide(asked, o)) out.push_back(static_cast<std::uint32_t>(o));
+          if (!reach.needed[o] && may_hide(to_solve, o))
+            out.push_back(static_cast<std::uint32_t>(o));
         });
     if (!hiding) return hiding.error();
     for (const std::uint32_t object : *hiding) reach.needed[object] = true;

@@ -36,9 +36,9 @@ struct ChangedView {
 
 /// The part of a scene that is solved anew, by object.
 struct ChangeReach {
-  std::vector<bool> asked;    ///< its lines are found anew
-  std::vector<bool> needed;   ///< it is asked, or may hide or cross what is
-  bool reaches_most = false;  ///< it is most of what there is
+  std::vector<bool> to_solve;  ///< its lines are found anew
+  std::vector<bool> needed;    ///< it is asked, or may hide or cross what is
+  bool reaches_most = false;   ///< it is most of what there is
 };
 
 /// Finds what changes can reach: objects that changed; those that the boxes of these meet, as their

@@ -160,7 +160,7 @@ class ObjectHasher {
         options_(options),
         shapes_(shapes),
         plan_(plan),
-        sees_colours_(!options.flush_seams || !view.sections.empty()) {}
+        uses_colours_(!options.flush_seams || !view.sections.empty()) {}
 
   void add(std::vector<std::uint64_t>& words, std::uint32_t object) const {
     const model::ObjectId id{object};
@@ -198,7 +198,7 @@ class ObjectHasher {
     const Vec3l at = body.origin + shape.corner;
     const model::Color& color = placed.color;
     const std::uint64_t ink =
-        sees_colours_ ? std::uint64_t{color.red} << 16U | std::uint64_t{color.green} << 8U |
+        uses_colours_ ? std::uint64_t{color.red} << 16U | std::uint64_t{color.green} << 8U |
                             std::uint64_t{color.blue} | std::uint64_t{color.alpha} << 24U
                       : std::uint64_t{color.alpha == 255};
     words.insert(words.end(), {shape.hash.high, shape.hash.low, static_cast<std::uint64_t>(at.x),
@@ -207,7 +207,7 @@ class ObjectHasher {
     if (shape.made_for_views) add_tessellation(words, body, placed);
   }
 
-  /// The view makes the mesh from the primitive, as fine as the other bodies of the shape ask for.
+  /// The view makes the mesh from the primitive, as fine as the other bodies of the shape request.
   void add_tessellation(std::vector<std::uint64_t>& words, const model::GridBody& body,
                         const model::Body& placed) const {
     words.push_back((plan_.is_finer(body.grid_shape) ? 1U : 0U) | (plan_.any ? 2U : 0U));
@@ -223,7 +223,7 @@ class ObjectHasher {
   const Options& options_;
   std::span<const HashedShape> shapes_;
   const model::ViewTessellation& plan_;
-  bool sees_colours_;
+  bool uses_colours_;
 };
 
 }  // namespace
@@ -233,15 +233,15 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
                               const parallel::Context& context) {
   if (const Status status = check_drawn(scene, drawn); !status) return status.error();
   if (const Status status = check_drawn(scene, options.uncut); !status) return status.error();
-  const auto seen_by = tessellation_of(view, options);
-  if (!seen_by) return seen_by.error();
+  const auto tessellation_options = tessellation_of(view, options);
+  if (!tessellation_options) return tessellation_options.error();
   Signatures result;
   Hasher hasher;
   hasher.add(kRulesOfDrawing).add(scene.sag_mm).add(scene.weld_mm);
   add(hasher, view);
   add(hasher, options);
   result.view = hasher.value();
-  const auto plan = plan_view_tessellation(scene, drawn, *seen_by, context);
+  const auto plan = plan_view_tessellation(scene, drawn, *tessellation_options, context);
   if (!plan) return plan.error();
   const auto extents = shape_extents(scene, context);
   if (!extents) return extents.error();

@@ -8,7 +8,7 @@
 
 namespace strake::hlr {
 
-/// Finds the lines of the objects that `input.whole` asks for, as they are in the whole view:
+/// Finds the lines of the objects that `input.whole` requests, as they are in the whole view:
 /// pieces, curves, counts by object, counters and reports. The scene must have all that may hide or
 /// cross them. Errors: those of prepare_view().
 [[nodiscard]] Result<Drawing> solve_part(const ViewInput& input, const parallel::Context& context);

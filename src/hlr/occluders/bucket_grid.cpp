@@ -18,7 +18,7 @@ namespace {
 /// an imported machine of a million faces gathering takes 3.2, 1.6 and 1.3 CPU s with 64, 256 and
 /// 1,024 buckets along a side; 256 are chosen, since making a million takes longer than they spare
 /// (decision 0029).
-constexpr double kMostPerBox = 64, kChosenPerBox = 8;
+constexpr double kMaxPerBox = 64, kChosenPerBox = 8;
 /// The cost of a step to the next bucket, in boxes examined. With 1 and 4 an isometric view of
 /// 3,000 objects takes the same instructions.
 constexpr double kStep = 2;
@@ -84,7 +84,7 @@ std::uint32_t BucketPlan::best_side(const EdgeLengths& own) const {
   std::uint32_t best = 1;
   if (!(longest() > 0)) return best;
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t side = 1; side <= Options::kMostBuckets && fits(side, kChosenPerBox);
+  for (std::uint32_t side = 1; side <= Options::kMaxBuckets && fits(side, kChosenPerBox);
        side *= 2) {
     const double walks = edges.count + edges.sum * side / longest();
     const double cost = walks * (kStep + entries(side) / buckets(side));
@@ -96,8 +96,8 @@ std::uint32_t BucketPlan::best_side(const EdgeLengths& own) const {
 }
 
 BucketAxes BucketPlan::axes(std::uint32_t side) const {
-  side = std::clamp<std::uint32_t>(side, 1, Options::kMostBuckets);
-  while (!fits(side, kMostPerBox)) side /= 2;
+  side = std::clamp<std::uint32_t>(side, 1, Options::kMaxBuckets);
+  while (!fits(side, kMaxPerBox)) side /= 2;
   const Sides count = sides(side);
   const auto axis = [](std::int64_t lo, std::int64_t hi, double extent, double buckets) {
     return BucketAxis{static_cast<double>(lo), static_cast<double>(hi),
@@ -230,11 +230,11 @@ BucketGrid::Cells BucketGrid::across(const SegmentQuery& s, bool steep, std::uin
   const double begin = i == 0 ? -kInfinity : along.lo + along.size * i;
   const double end = i + 1 == along.count ? kInfinity : along.lo + along.size * (i + 1);
   const double least = std::max(begin, steep ? s.v0 : s.u0);
-  const double most = std::min(end, steep ? s.v1 : s.u1);
-  const double p = at + (least - from) * slope, q = at + (most - from) * slope;
+  const double largest = std::min(end, steep ? s.v1 : s.u1);
+  const double p = at + (least - from) * slope, q = at + (largest - from) * slope;
   // The bound of rounding of the bucket's sides and of the line; |slope| <= 1.
-  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(most) +
-                                std::abs(along.lo) + std::abs(along.hi)) +
+  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) +
+                                std::abs(largest) + std::abs(along.lo) + std::abs(along.hi)) +
                        s.beside / std::abs(step);
   return {to_side.cell(std::max(lo, std::min(p, q) - slack)),
           to_side.cell(std::min(hi, std::max(p, q) + slack))};

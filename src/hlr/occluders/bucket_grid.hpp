@@ -55,7 +55,7 @@ class BucketPlan {
   /// Returns how many buckets along the longer side give the least cost for some edges: in boxes
   /// examined, when all buckets are alike. Where there are no edges, edges about as long as the
   /// boxes are assumed. The result is a power of two for which buckets and entries are not more
-  /// than eight times the boxes. The source thesis asks for such a choice and has none.
+  /// than eight times the boxes. The source thesis requests such a choice and has none.
   [[nodiscard]] std::uint32_t best_side(const EdgeLengths& own) const;
 
   /// Returns a grid of about square buckets, `side` of them along the longer side: fewer where they

@@ -37,9 +37,9 @@ EdgeLengths lengths_of(std::span<const ProjectedEdge> edges) {
 /// rotated where the new box is smaller by this factor: areas. With both, the isometric view of a
 /// rack of 900 pipes takes 0.5 CPU s, and 6.5 without; that of a ship of 100,000 objects takes 3.1,
 /// and 3.3 to 4.2 without (decision 0031).
-constexpr double kAskew = 0.25, kWorthTurning = 0.5;
+constexpr double kAskew = 0.25, kMaxRotatedArea = 0.5;
 /// Farther out a rotated point would be no whole number that a double holds.
-constexpr std::int64_t kFarthestTurned = std::int64_t{1} << 44;
+constexpr std::int64_t kFarthestRotated = std::int64_t{1} << 44;
 
 double area(const ViewBox& box) {
   return (static_cast<double>(box.hi.u) - static_cast<double>(box.lo.u)) *
@@ -47,7 +47,7 @@ double area(const ViewBox& box) {
 }
 
 /// Returns the rotation along the longest edge, if that runs askew.
-PaperRotation turn_along(std::span<const ProjectedEdge> edges, const ViewBox& box) {
+PaperRotation rotation_along(std::span<const ProjectedEdge> edges, const ViewBox& box) {
   double longest = 0, du = 0, dv = 0;
   for (const ProjectedEdge& e : edges) {
     const double u = static_cast<double>(e.b.u - e.a.u), v = static_cast<double>(e.b.v - e.a.v);
@@ -58,39 +58,39 @@ PaperRotation turn_along(std::span<const ProjectedEdge> edges, const ViewBox& bo
   }
   if (std::abs(du * dv) <= kAskew * area(box)) return {};
   const double scale =
-      static_cast<double>(PaperRotation::kMost) / std::max(std::abs(du), std::abs(dv));
+      static_cast<double>(PaperRotation::kMax) / std::max(std::abs(du), std::abs(dv));
   return {std::llround(du * scale), std::llround(dv * scale)};
 }
 
-std::vector<ViewBox> turned_boxes(const OccluderPolygons& all,
-                                  std::span<const OccluderPolygon> polygons,
-                                  const PaperRotation& turn) {
+std::vector<ViewBox> rotated_boxes(const OccluderPolygons& all,
+                                   std::span<const OccluderPolygon> polygons,
+                                   const PaperRotation& rotation) {
   std::vector<ViewBox> boxes;
   boxes.reserve(polygons.size());
   for (const OccluderPolygon& p : polygons) {
     ViewBox box;
     for (const PaperCorner& c : std::span(all.corners).subspan(p.first_corner, p.corners))
-      for (const std::int64_t w : {p.box.lo.w, p.box.hi.w}) box.include(turn({c.u, c.v, w}));
+      for (const std::int64_t w : {p.box.lo.w, p.box.hi.w}) box.include(rotation({c.u, c.v, w}));
     boxes.push_back(box);
   }
   return boxes;
 }
 
 /// Returns whether the part is indexed in axes of its own (decision 0031).
-bool index_turned(const OccluderPolygons& all, std::span<const OccluderPolygon> polygons,
-                  std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
+bool index_rotated(const OccluderPolygons& all, std::span<const OccluderPolygon> polygons,
+                   std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
   const ViewPoint &lo = part.box.lo, &hi = part.box.hi;
-  if (std::max({std::abs(lo.u), std::abs(lo.v), std::abs(hi.u), std::abs(hi.v)}) > kFarthestTurned)
+  if (std::max({std::abs(lo.u), std::abs(lo.v), std::abs(hi.u), std::abs(hi.v)}) > kFarthestRotated)
     return false;
-  const PaperRotation turn = turn_along(edges, part.box);
-  if (turn.is_none()) return false;
-  const std::vector<ViewBox> boxes = turned_boxes(all, polygons, turn);
+  const PaperRotation rotation = rotation_along(edges, part.box);
+  if (rotation.is_none()) return false;
+  const std::vector<ViewBox> boxes = rotated_boxes(all, polygons, rotation);
   ViewBox box;
   for (const ViewBox& one : boxes) box.include(one);
-  const auto scale = static_cast<double>(turn.c * turn.c + turn.s * turn.s);
-  if (area(box) > kWorthTurning * scale * area(part.box)) return false;
-  part.turn = turn;
-  part.turned = rounded_outwards(box);
+  const auto scale = static_cast<double>(rotation.c * rotation.c + rotation.s * rotation.s);
+  if (area(box) > kMaxRotatedArea * scale * area(part.box)) return false;
+  part.rotation = rotation;
+  part.rotated_box = rounded_outwards(box);
   // Its facets are long strips along these axes, which buckets do not separate.
   if (polygons.size() >= from) part.tree = ViewBvh(boxes);
   return true;
@@ -140,7 +140,7 @@ Status build_occluder_index(const OccluderPolygons& all, std::span<const Project
   const bool by_data = settings.bucketing == Options::kBucketsByData;
   const std::size_t from = !by_data ? 2 : convex ? kIndexFromIfConvex : kIndexFrom;
   if (by_data && settings.perspective_map == nullptr && polygons.size() < kBigShape &&
-      index_turned(all, polygons, edges, from, part))
+      index_rotated(all, polygons, edges, from, part))
     return {};
   if (polygons.size() < from || settings.bucketing == Options::kNoBuckets) return {};
   auto boxes = boxes_of(polygons, settings);

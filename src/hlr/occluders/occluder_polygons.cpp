@@ -57,9 +57,10 @@ void OccluderBuilder::add_group(std::span<const std::uint32_t> triangles, Occlud
 }
 
 void OccluderBuilder::add_wide(std::uint32_t t, OccluderPolygons& out) {
-  ExactNormal n = triangle_normal(seen_.part, t);
-  Triangle i = seen_.part.triangles[t];
-  const Int128 facing = seen_.viewer.facing(n, seen_.part.vertices[i[0]].as<std::int64_t>());
+  ExactNormal n = triangle_normal(projected_.part, t);
+  Triangle i = projected_.part.triangles[t];
+  const Int128 facing =
+      projected_.viewer.facing(n, projected_.part.vertices[i[0]].as<std::int64_t>());
   if (facing == 0) return;
   if (facing < 0) {
     for (Int128& x : n) x = -x;
@@ -68,7 +69,8 @@ void OccluderBuilder::add_wide(std::uint32_t t, OccluderPolygons& out) {
   OccluderPolygon& p = start(i[0], out);
   p.wide = static_cast<std::int32_t>(out.wide_normals.size());
   p.back = facing < 0;
-  p.edge_on = seen_.find_edge_on && may_be_edge_on(seen_.part, t, seen_.viewer.direction);
+  p.edge_on =
+      projected_.find_edge_on && may_be_edge_on(projected_.part, t, projected_.viewer.direction);
   out.wide_normals.push_back(n);
   add_corners(p, i, out);
 }
@@ -82,32 +84,32 @@ bool OccluderBuilder::make_outline(OccluderPolygon& outline, OccluderPolygons& o
 
 OccluderPolygon& OccluderBuilder::start(std::uint32_t vertex, OccluderPolygons& out) const {
   OccluderPolygon& p = out.polygons.emplace_back();
-  p.at = seen_.part.vertices[vertex];
+  p.at = projected_.part.vertices[vertex];
   p.part = part_index_;
   return p;
 }
 
 void OccluderBuilder::add_found(std::uint32_t t, OccluderPolygons& out) {
   OccluderPolygon& p = start(loops_.found()[0], out);
-  p.normal = seen_.towards_viewer(t);
-  p.edge_on = seen_.planes[t].edge_on;
-  p.back = seen_.planes[t].facing < 0;
+  p.normal = projected_.towards_viewer(t);
+  p.edge_on = projected_.planes[t].edge_on;
+  p.back = projected_.planes[t].facing < 0;
   add_corners(p, loops_.found(), out);
 }
 
 void OccluderBuilder::add_corners(OccluderPolygon& p, std::span<const std::uint32_t> vertices,
                                   OccluderPolygons& out) const {
   p.corners = static_cast<std::uint32_t>(vertices.size());
-  if (seen_.viewer.eye) {
+  if (projected_.viewer.eye) {
     p.first_corner = static_cast<std::uint32_t>(out.rays.size());
-    for (const std::uint32_t v : vertices) out.rays.push_back(seen_.rays[v]);
+    for (const std::uint32_t v : vertices) out.rays.push_back(projected_.rays[v]);
     p.box = perspective_map_->box_of(std::span(out.rays).last(vertices.size()));
     return;
   }
   p.first_corner = static_cast<std::uint32_t>(out.corners.size());
   for (const std::uint32_t v : vertices) {
-    p.box.include(seen_.points[v]);
-    out.corners.push_back({seen_.points[v].u, seen_.points[v].v});
+    p.box.include(projected_.points[v]);
+    out.corners.push_back({projected_.points[v].u, projected_.points[v].v});
   }
 }
 
@@ -185,23 +187,23 @@ class PartMerger {
         viewer_(settings.features.viewer),
         edges_(edges),
         shape_(shape),
-        seen_{.part = part,
-              .viewer = settings.features.viewer,
-              .find_edge_on = settings.find_edge_on} {}
+        projected_{.part = part,
+                   .viewer = settings.features.viewer,
+                   .find_edge_on = settings.find_edge_on} {}
 
   Result<bool> run() {
     first_ = static_cast<std::uint32_t>(shape_.polygons.size());
-    if (const Status s = seen_.project(settings_.projection, settings_.context); !s)
+    if (const Status s = projected_.project(settings_.projection, settings_.context); !s)
       return s.error();
-    OccluderBuilder maker(seen_, part_index_, settings_.perspective_map);
+    OccluderBuilder maker(projected_, part_index_, settings_.perspective_map);
     if (!narrow()) {
       for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) maker.add_wide(t, shape_);
       return finish({}, false);
     }
-    if (const Status s = seen_.find_planes(settings_.context); !s) return s.error();
+    if (const Status s = projected_.find_planes(settings_.context); !s) return s.error();
     const Result<bool> locally_convex = traverse_edges();
     if (!locally_convex) return locally_convex.error();
-    const bool convex = *locally_convex && bounds_convex_body(part_, seen_.planes);
+    const bool convex = *locally_convex && bounds_convex_body(part_, projected_.planes);
     if (const Status s = add_groups(maker); !s) return s.error();
     OccluderPart part;
     if (convex) part.has_outline = maker.make_outline(part.outline, shape_);
@@ -223,13 +225,13 @@ class PartMerger {
       ViewBox box;
       double steepest = 0;
     };
-    const bool asks_slopes = !viewer_.eye || part.has_outline;
+    const bool needs_slopes = !viewer_.eye || part.has_outline;
     const Result<Extent> extent = parallel::reduce(
         settings_.context, over_elements("hidden lines: extent of a part", polygons.size()),
         Extent{},
         [&](Extent& all, std::size_t i) {
           all.box.include(polygons[i].box);
-          if (asks_slopes) all.steepest = std::max(all.steepest, steepness(polygons[i]));
+          if (needs_slopes) all.steepest = std::max(all.steepest, steepness(polygons[i]));
         },
         [](Extent& all, const Extent& more) {
           all.box.include(more.box);
@@ -238,9 +240,9 @@ class PartMerger {
     if (!extent) return extent.error();
     part.box = extent->box;
     part.outline.box = part.box;
-    part.farthest = seen_.farthest();
+    part.farthest = projected_.farthest();
     // Rounding of the few operations is far below the fraction added.
-    if (asks_slopes) part.deep_per_contact = extent->steepest * reach() * (1 + 1e-9);
+    if (needs_slopes) part.deep_per_contact = extent->steepest * reach() * (1 + 1e-9);
     part.edge_on = std::ranges::any_of(polygons, &OccluderPolygon::edge_on);
     if (const Status s = build_occluder_index(shape_, edges_, hubs(), convex, settings_, part); !s)
       return s.error();
@@ -251,12 +253,12 @@ class PartMerger {
   /// Returns the points on paper where many triangles meet.
   [[nodiscard]] std::vector<PaperCorner> hubs() const {
     std::vector<PaperCorner> hubs;
-    if (viewer_.eye || part_.triangles.size() < kLeastInFan) return hubs;
+    if (viewer_.eye || part_.triangles.size() < kMinInFan) return hubs;
     std::vector<std::uint32_t> round(part_.vertices.size(), 0);
     for (const geometry::Triangle& t : part_.triangles)
       for (const std::uint32_t v : t) ++round[v];
     for (std::size_t v = 0; v < round.size(); ++v) {
-      if (round[v] < kLeastInFan) continue;
+      if (round[v] < kMinInFan) continue;
       const ViewPoint p = settings_.projection(part_.vertices[v].as<std::int64_t>());
       hubs.push_back({p.u, p.v});
     }
@@ -272,7 +274,7 @@ class PartMerger {
         has_directed_edge(part_.triangles[t], e.v0, e.v1))
       return Bend::not_convex;
     const Int128 bend =
-        height(seen_.planes[s].n, part_.vertices[opposite_vertex(part_.triangles[t], e)],
+        height(projected_.planes[s].n, part_.vertices[opposite_vertex(part_.triangles[t], e)],
                part_.vertices[e.v0]);
     if (bend != 0) return bend > 0 ? Bend::not_convex : Bend::convex;
     return is_folded(s, t) ? Bend::folded : Bend::flat;
@@ -293,7 +295,7 @@ class PartMerger {
       if (bends[k] != Bend::flat) continue;
       const std::uint32_t first = part_.edges[k].first_triangle;
       const std::uint32_t s = part_.edge_triangles[first], t = part_.edge_triangles[first + 1];
-      if (seen_.planes[s].edge_on == seen_.planes[t].edge_on) groups.join(s, t);
+      if (projected_.planes[s].edge_on == projected_.planes[t].edge_on) groups.join(s, t);
     }
     group_.resize(part_.triangles.size());
     for (std::uint32_t t = 0; t < group_.size(); ++t) group_[t] = groups.root(t);
@@ -302,7 +304,7 @@ class PartMerger {
 
   // Returns whether two coplanar triangles lie upon each other.
   [[nodiscard]] bool is_folded(std::uint32_t s, std::uint32_t t) const {
-    const auto &m = seen_.planes[s].n, &n = seen_.planes[t].n;
+    const auto &m = projected_.planes[s].n, &n = projected_.planes[t].n;
     for (std::size_t k = 0; k < 3; ++k)
       if (m[k] != 0) return (m[k] > 0) != (n[k] > 0);
     return true;
@@ -323,7 +325,7 @@ class PartMerger {
     const auto d = viewer_.direction.as<double>();
     if (!viewer_.eye) return dot(d, d);
     double farthest = 0;
-    for (const Vec3l& r : seen_.rays)
+    for (const Vec3l& r : projected_.rays)
       farthest = std::max(farthest, dot(r.as<double>(), r.as<double>()));
     return std::sqrt(dot(d, d) * farthest);
   }
@@ -334,7 +336,7 @@ class PartMerger {
     std::vector<std::uint8_t> shows(group_.size());
     const Status status = parallel::for_each(
         settings_.context, over_elements("hidden lines: faces that show", shows.size()),
-        [&](std::size_t t) { shows[t] = seen_.planes[t].facing != 0 ? 1 : 0; });
+        [&](std::size_t t) { shows[t] = projected_.planes[t].facing != 0 ? 1 : 0; });
     if (!status) return status.error();
     std::vector<std::uint32_t> next(group_.size() + 1, 0);
     for (std::uint32_t t = 0; t < group_.size(); ++t) next[group_[t] + 1] += shows[t];
@@ -371,7 +373,7 @@ class PartMerger {
     cuts.push_back(order.size());
     const auto runs = parallel::transform_with(
         settings_.context, {.name = "hidden lines: polygons", .n = cuts.size() - 1},
-        [&] { return OccluderBuilder(seen_, part_index_, settings_.perspective_map); },
+        [&] { return OccluderBuilder(projected_, part_index_, settings_.perspective_map); },
         [&](OccluderBuilder& own, std::size_t r) {
           OccluderPolygons out;
           add(own, cuts[r], cuts[r + 1], out);
@@ -388,7 +390,7 @@ class PartMerger {
   const Viewer& viewer_;
   std::span<const ProjectedEdge> edges_;
   ProjectedShape& shape_;
-  ProjectedPart seen_;
+  ProjectedPart projected_;
   std::vector<std::uint32_t> group_;
 };
 

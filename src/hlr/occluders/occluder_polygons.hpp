@@ -51,9 +51,12 @@ struct OccluderPolygons {
 class OccluderBuilder {
  public:
   /// `perspective_map`: null where the view is orthographic.
-  OccluderBuilder(const ProjectedPart& seen, std::uint32_t part_index,
+  OccluderBuilder(const ProjectedPart& projected, std::uint32_t part_index,
                   const PerspectiveMap* perspective_map)
-      : seen_(seen), part_index_(part_index), perspective_map_(perspective_map), loops_(seen) {}
+      : projected_(projected),
+        part_index_(part_index),
+        perspective_map_(perspective_map),
+        loops_(projected) {}
 
   /// Adds coplanar triangles that look the same way and of which all, or none, may be edge-on: as
   /// one polygon if that is convex, or else each.
@@ -70,7 +73,7 @@ class OccluderBuilder {
   void add_corners(OccluderPolygon& p, std::span<const std::uint32_t> vertices,
                    OccluderPolygons& out) const;
 
-  const ProjectedPart& seen_;
+  const ProjectedPart& projected_;
   std::uint32_t part_index_;
   const PerspectiveMap* perspective_map_;
   SilhouetteLoops loops_;

@@ -17,7 +17,7 @@ namespace {
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 constexpr float kNothing = -kEndless;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostAcross = 4096;
+constexpr std::size_t kMaxAcross = 4096;
 /// Rows whose polygons are listed together, and rows that are painted as one item.
 constexpr std::size_t kListedRows = 64;
 constexpr std::size_t kPaintedRows = 8;
@@ -30,9 +30,9 @@ constexpr std::size_t kDepthClasses = 1024;
 /// more exactly, and a whole unit is added where they are compared.
 constexpr double kShare = 1e-12;
 /// With more gaps the rest of the edge is one: each is a query of its own.
-constexpr std::size_t kMostGaps = 16;
+constexpr std::size_t kMaxGaps = 16;
 /// A box over more tiles is not looked up: its edges are, one by one.
-constexpr double kMostInBox = 1024;
+constexpr double kMaxInBox = 1024;
 /// Margin at the sides of tiles, in tiles, for the place of a point of an edge.
 constexpr double kBeside = 1e-6;
 
@@ -409,7 +409,7 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
   if (box.empty() || box.lo.u == box.hi.u || box.lo.v == box.hi.v) return occlusion_buffer;
   const auto a_side = static_cast<std::size_t>(std::sqrt(static_cast<double>(tiles)));
   occlusion_buffer.columns_ = occlusion_buffer.rows_ =
-      std::clamp<std::size_t>(a_side, 16, kMostAcross);
+      std::clamp<std::size_t>(a_side, 16, kMaxAcross);
   occlusion_buffer.u0_ = as_double(box.lo.u);
   occlusion_buffer.v0_ = as_double(box.lo.v);
   occlusion_buffer.width_ =
@@ -505,7 +505,7 @@ class OcclusionBuffer::TileTraversal {
                std::vector<SegmentRange>& gaps) const {
     const double step = dx_ == 0 ? part.hi - part.lo : kBeside / std::fabs(dx_);
     const double lo = std::max(part.lo, gap.lo - step), hi = std::min(part.hi, gap.hi + step);
-    if (!gaps.empty() && (lo <= gaps.back().hi || gaps.size() == kMostGaps))
+    if (!gaps.empty() && (lo <= gaps.back().hi || gaps.size() == kMaxGaps))
       gaps.back().hi = hi;
     else
       gaps.push_back({lo, hi});
@@ -551,7 +551,7 @@ bool OcclusionBuffer::covers(const ViewBox& box) const {
   const double low = first((as_double(box.lo.v) - v0_) / height_);
   const double high = last((as_double(box.hi.v) - v0_) / height_);
   if (left < 0 || low < 0 || right >= static_cast<double>(columns_) ||
-      high >= static_cast<double>(rows_) || (right - left + 1) * (high - low + 1) > kMostInBox)
+      high >= static_cast<double>(rows_) || (right - left + 1) * (high - low + 1) > kMaxInBox)
     return false;
   const double nearest = as_double(box.hi.w);
   const double w = nearest + 1 + kShare * std::fabs(nearest);

@@ -42,7 +42,7 @@ class OcclusionBuffer {
   [[nodiscard]] bool empty() const { return depth_.empty(); }
 
   /// Finds the gaps of a buffer that is not empty: what of the part [lo, hi] of a segment is not
-  /// certainly hidden on both sides. Ascending, none meets the next, kMostGaps at most: then the
+  /// certainly hidden on both sides. Ascending, none meets the next, kMaxGaps at most: then the
   /// last is longer than it need be. The joints of plates leave such gaps, as no plate covers the
   /// tiles there alone.
   void find_gaps(const ViewPoint& a, const ViewPoint& b, const SegmentRange& part,

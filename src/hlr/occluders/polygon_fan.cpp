@@ -70,17 +70,17 @@ std::optional<SegmentQuery> PolygonFan::directions(const ViewPoint& a, const Vie
                                                    double nearest) const {
   // Beyond that, boxes cull as much; and it is less than half a turn, so that an edge is seen
   // between its ends.
-  constexpr double kMost = kFullTurn / 8;
+  constexpr double kMax = kFullTurn / 8;
   const bool from_a = a.u == at_.u && a.v == at_.v, from_b = b.u == at_.u && b.v == at_.v;
   if (from_a && from_b) return std::nullopt;
   const double to_a = from_a ? angle_of(at_, b.u, b.v) : angle_of(at_, a.u, a.v);
   const double to_b = from_b ? to_a : angle_of(at_, b.u, b.v);
-  if (std::fabs(to_a - to_b) > kMost) return std::nullopt;
-  SegmentQuery seen;
-  seen.u0 = std::min(to_a, to_b) - 1;
-  seen.u1 = std::max(to_a, to_b) + 1;
-  seen.w0 = nearest;
-  return seen;
+  if (std::fabs(to_a - to_b) > kMax) return std::nullopt;
+  SegmentQuery range;
+  range.u0 = std::min(to_a, to_b) - 1;
+  range.u1 = std::max(to_a, to_b) + 1;
+  range.w0 = nearest;
+  return range;
 }
 
 std::vector<PolygonFan> extract_fans(std::vector<PaperCorner> hubs,
@@ -101,7 +101,7 @@ std::vector<PolygonFan> extract_fans(std::vector<PaperCorner> hubs,
     }
   }
   for (std::size_t h = 0; h < hubs.size(); ++h) {
-    if (round[h].size() < kLeastInFan) continue;
+    if (round[h].size() < kMinInFan) continue;
     for (const std::uint32_t i : round[h]) boxes[i] = {};
     fans.emplace_back(hubs[h], std::move(round[h]), polygons, corners);
   }

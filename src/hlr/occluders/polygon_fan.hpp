@@ -27,10 +27,10 @@ class PolygonFan {
   template <class Visit>
   void traverse(const SegmentQuery& segment, const ViewPoint& a, const ViewPoint& b,
                 Visit&& visit) const {
-    const std::optional<SegmentQuery> seen = directions(a, b, segment.w0);
-    if (!seen)
+    const std::optional<SegmentQuery> range = directions(a, b, segment.w0);
+    if (!range)
       return by_box_.traverse(segment, [&](std::uint32_t i) { return visit(numbers_[i]); });
-    by_angle_.traverse(*seen, [&](std::uint32_t i) { return visit(numbers_[angles_[i]]); });
+    by_angle_.traverse(*range, [&](std::uint32_t i) { return visit(numbers_[angles_[i]]); });
   }
 
  private:
@@ -55,6 +55,6 @@ class PolygonFan {
 
 /// The least number of polygons round a point that make a fan. 12,500 creases from one point take
 /// 0.3 s with fans, and took 10 without (decision 0042, bench hlr_growth).
-inline constexpr std::size_t kLeastInFan = 64;
+inline constexpr std::size_t kMinInFan = 64;
 
 }  // namespace strake::hlr

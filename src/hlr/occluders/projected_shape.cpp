@@ -47,13 +47,13 @@ void classify_edges(const geometry::Part& part, const Viewer& viewer,
 
 }  // namespace
 
-Result<ProjectedShape> project_shape(const SectionedShape& seen,
+Result<ProjectedShape> project_shape(const SectionedShape& sectioned,
                                      const ProjectionSettings& settings) {
-  const model::GridShape& grid_shape = seen.shape();
+  const model::GridShape& grid_shape = sectioned.shape();
   const Viewer& viewer = settings.features.viewer;
   ProjectedShape shape;
   shape.viewer = viewer;
-  const auto found = sectioned_edges(seen, settings.features, settings.context);
+  const auto found = sectioned_edges(sectioned, settings.features, settings.context);
   if (!found) return found.error();
   const std::vector<FeatureEdge>& edges = *found;
   auto on_paper = parallel::slots<ProjectedEdge>(edges.size(), settings.context);
@@ -82,7 +82,8 @@ Result<ProjectedShape> project_shape(const SectionedShape& seen,
     if (!convex) return convex.error();
     // A part that was rounded has a contact distance within itself, and some facets are edge-on but
     // for rounding: the signs account for neither.
-    const bool exact = seen.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
+    const bool exact =
+        sectioned.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
     if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
   }
   if (!shape.parts.empty()) shape.farthest = shape.parts.front().farthest;

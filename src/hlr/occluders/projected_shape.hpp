@@ -26,8 +26,8 @@ struct OccluderPart {
   std::int64_t farthest = 0;          ///< least product of a corner with the direction
   bool edge_on = false;               ///< some of its polygons are, see OccluderPolygon::edge_on
   std::uint32_t first = 0, last = 0;  ///< its polygons
-  PaperRotation turn;                 ///< its rotation where the part runs askew on paper
-  LooseBox turned;                    ///< its box after that rotation
+  PaperRotation rotation;             ///< its rotation where the part runs askew on paper
+  LooseBox rotated_box;               ///< its box after that rotation
   // Indices over the polygons where there are many: one or neither; after that rotation.
   ViewBvh tree;
   BucketGrid buckets;
@@ -72,7 +72,7 @@ struct ProjectedShape : OccluderPolygons {
 };
 
 /// Projects a shape and makes its occluders and edges. Errors: cancelled.
-[[nodiscard]] Result<ProjectedShape> project_shape(const SectionedShape& seen,
+[[nodiscard]] Result<ProjectedShape> project_shape(const SectionedShape& sectioned,
                                                    const ProjectionSettings& settings);
 
 /// Appends the polygons of one part; true when the part is exactly convex and closed. `edges` are

@@ -136,7 +136,7 @@ std::array<std::int64_t, 3> ProjectedPart::towards_viewer(std::uint32_t t) const
 }
 
 bool SilhouetteLoops::find_outline(std::span<const std::uint32_t> triangles) {
-  next_.resize(seen_.part.vertices.size(), geometry::kNoIndex);
+  next_.resize(projected_.part.vertices.size(), geometry::kNoIndex);
   const bool one = triangles.size() == 2 ? outline_of_pair(triangles[0], triangles[1])
                                          : triangles.size() > 2 && outline(triangles);
   return one && is_convex_face(triangles[0]);
@@ -144,28 +144,28 @@ bool SilhouetteLoops::find_outline(std::span<const std::uint32_t> triangles) {
 
 bool SilhouetteLoops::find_silhouette() {
   if (!close_silhouette()) return false;
-  return seen_.viewer.eye ? is_convex_cone() : is_convex_loop(OnPaper{seen_.points});
+  return projected_.viewer.eye ? is_convex_cone() : is_convex_loop(OnPaper{projected_.points});
 }
 
 void SilhouetteLoops::take_triangle(std::uint32_t t) {
-  const Triangle& i = seen_.part.triangles[t];
+  const Triangle& i = projected_.part.triangles[t];
   loop_.assign(i.begin(), i.end());
-  if (seen_.planes[t].facing < 0) std::swap(loop_[1], loop_[2]);
+  if (projected_.planes[t].facing < 0) std::swap(loop_[1], loop_[2]);
 }
 
 // Joins the edges between faces towards the viewer and the others to one loop (certified convex
 // parts: every edge has two triangles).
 bool SilhouetteLoops::close_silhouette() {
-  next_.assign(seen_.part.vertices.size(), geometry::kNoIndex);
+  next_.assign(projected_.part.vertices.size(), geometry::kNoIndex);
   std::size_t count = 0;
   std::uint32_t from = geometry::kNoIndex;
-  for (std::size_t k = 0; k + 1 < seen_.part.edges.size(); ++k) {
-    const geometry::PartEdge& e = seen_.part.edges[k];
-    std::uint32_t s = seen_.part.edge_triangles[e.first_triangle];
-    const std::uint32_t t = seen_.part.edge_triangles[e.first_triangle + 1];
-    if ((seen_.planes[s].facing > 0) == (seen_.planes[t].facing > 0)) continue;
-    if (seen_.planes[t].facing > 0) s = t;
-    const bool along_edge = geometry::has_directed_edge(seen_.part.triangles[s], e.v0, e.v1);
+  for (std::size_t k = 0; k + 1 < projected_.part.edges.size(); ++k) {
+    const geometry::PartEdge& e = projected_.part.edges[k];
+    std::uint32_t s = projected_.part.edge_triangles[e.first_triangle];
+    const std::uint32_t t = projected_.part.edge_triangles[e.first_triangle + 1];
+    if ((projected_.planes[s].facing > 0) == (projected_.planes[t].facing > 0)) continue;
+    if (projected_.planes[t].facing > 0) s = t;
+    const bool along_edge = geometry::has_directed_edge(projected_.part.triangles[s], e.v0, e.v1);
     from = along_edge ? e.v0 : e.v1;
     if (next_[from] != geometry::kNoIndex) return false;
     next_[from] = along_edge ? e.v1 : e.v0;
@@ -179,13 +179,13 @@ bool SilhouetteLoops::close_silhouette() {
 
 // Does the work of outline() for two triangles that share an edge, without sorting.
 bool SilhouetteLoops::outline_of_pair(std::uint32_t s, std::uint32_t t) {
-  const Triangle &i = seen_.part.triangles[s], &j = seen_.part.triangles[t];
+  const Triangle &i = projected_.part.triangles[s], &j = projected_.part.triangles[t];
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t a = i[k], b = i[(k + 1) % 3], c = i[(k + 2) % 3];
     for (std::size_t m = 0; m < 3; ++m) {
       if (j[m] != b || j[(m + 1) % 3] != a) continue;
       loop_ = {a, j[(m + 2) % 3], b, c};
-      if (seen_.planes[s].facing < 0) std::reverse(loop_.begin(), loop_.end());
+      if (projected_.planes[s].facing < 0) std::reverse(loop_.begin(), loop_.end());
       return loop_[0] != loop_[2] && loop_[1] != loop_[3];
     }
   }
@@ -196,10 +196,11 @@ bool SilhouetteLoops::outline_of_pair(std::uint32_t s, std::uint32_t t) {
 // more loops or one that touches itself.
 bool SilhouetteLoops::outline(std::span<const std::uint32_t> triangles) {
   directed_.clear();
-  const bool front = seen_.planes[triangles[0]].facing > 0;
+  const bool front = projected_.planes[triangles[0]].facing > 0;
   for (const std::uint32_t t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = seen_.part.triangles[t][k], b = seen_.part.triangles[t][(k + 1) % 3];
+      const std::uint32_t a = projected_.part.triangles[t][k],
+                          b = projected_.part.triangles[t][(k + 1) % 3];
       directed_.push_back(front ? std::array{a, b} : std::array{b, a});
     }
   std::sort(directed_.begin(), directed_.end());
@@ -228,24 +229,24 @@ bool SilhouetteLoops::outline(std::span<const std::uint32_t> triangles) {
 
 // A flat loop is as convex on its plane as on paper.
 bool SilhouetteLoops::is_convex_face(std::uint32_t t) {
-  if (!seen_.viewer.eye) return is_convex_loop(OnPaper{seen_.points});
-  const auto n = seen_.towards_viewer(t);
+  if (!projected_.viewer.eye) return is_convex_loop(OnPaper{projected_.points});
+  const auto n = projected_.towards_viewer(t);
   std::size_t k = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (std::abs(n[i]) > std::abs(n[k])) k = i;
   const int i = static_cast<int>((k + 1) % 3), j = static_cast<int>((k + 2) % 3);
-  return is_convex_loop(n[k] > 0 ? InPlane{seen_.part, i, j} : InPlane{seen_.part, j, i});
+  return is_convex_loop(n[k] > 0 ? InPlane{projected_.part, i, j} : InPlane{projected_.part, j, i});
 }
 
 // Drops corners on straight runs; true when the rest turns left everywhere, and once round.
 template <class At>
 bool SilhouetteLoops::is_convex_loop(const At& at) {
-  const auto turn = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  const auto orientation = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const LoopPoint p = at(i), q = at(j), r = at(k);
     return static_cast<Int128>(q.u - p.u) * (r.v - q.v) -
            static_cast<Int128>(q.v - p.v) * (r.u - q.u);
   };
-  if (!drop_straight_runs(turn)) return false;
+  if (!drop_straight_runs(orientation)) return false;
   const auto rising = [&](std::uint32_t i, std::uint32_t j) {
     const LoopPoint p = at(i), q = at(j);
     return q.v > p.v || (q.v == p.v && q.u > p.u);
@@ -265,16 +266,16 @@ bool SilhouetteLoops::is_convex_loop(const At& at) {
 // outside the part.
 bool SilhouetteLoops::is_convex_cone() {
   return drop_straight_runs([&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    return -along(wide_cross(seen_.rays[i], seen_.rays[j]), seen_.rays[k]);
+    return -along(wide_cross(projected_.rays[i], projected_.rays[j]), projected_.rays[k]);
   });
 }
 
-template <class Turn>
-bool SilhouetteLoops::drop_straight_runs(const Turn& turn) {
+template <class Orientation>
+bool SilhouetteLoops::drop_straight_runs(const Orientation& orientation) {
   corners_.clear();
   const std::size_t n = loop_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Int128 left = turn(loop_[(i + n - 1) % n], loop_[i], loop_[(i + 1) % n]);
+    const Int128 left = orientation(loop_[(i + n - 1) % n], loop_[i], loop_[(i + 1) % n]);
     if (left < 0) return false;
     if (left > 0) corners_.push_back(loop_[i]);
   }

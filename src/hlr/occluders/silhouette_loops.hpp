@@ -20,7 +20,7 @@ namespace strake::hlr {
 struct TrianglePlane {
   std::array<std::int64_t, 3> n{};
   Int128 facing = 0;
-  bool edge_on = false;  ///< see may_be_edge_on(); only where it is asked for
+  bool edge_on = false;  ///< see may_be_edge_on(); only where it is requested
 };
 
 /// Returns whether a locally convex closed surface of one shell bounds a convex body: it does when
@@ -51,7 +51,7 @@ struct ProjectedPart {
 /// Finds convex loops of vertices, counter-clockwise to the viewer.
 class SilhouetteLoops {
  public:
-  explicit SilhouetteLoops(const ProjectedPart& seen) : seen_(seen) {}
+  explicit SilhouetteLoops(const ProjectedPart& projected) : projected_(projected) {}
 
   /// Finds the outline of coplanar triangles that look the same way; false when it is not one
   /// convex loop.
@@ -70,10 +70,10 @@ class SilhouetteLoops {
   template <class At>
   bool is_convex_loop(const At& at);
   bool is_convex_cone();
-  template <class Turn>
-  bool drop_straight_runs(const Turn& turn);
+  template <class Orientation>
+  bool drop_straight_runs(const Orientation& orientation);
 
-  const ProjectedPart& seen_;
+  const ProjectedPart& projected_;
   std::vector<std::uint32_t> next_, loop_, corners_, touched_;
   std::vector<std::array<std::uint32_t, 2>> directed_;
 };

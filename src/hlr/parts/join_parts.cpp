@@ -60,7 +60,7 @@ Status PartJoin::make_room(const Options& options, const parallel::Context& cont
 }
 
 bool PartJoin::add(const Drawing& part, const PartCounts& counts,
-                   std::span<const std::uint32_t> objects, const std::vector<bool>& asked) {
+                   std::span<const std::uint32_t> objects, const std::vector<bool>& to_solve) {
   const PartCounts found = count_lines(part, objects.size());
   if (found.pieces != counts.pieces || found.curved_edges != counts.curved_edges ||
       found.curves != counts.curves || part.counted.size() != objects.size() ||
@@ -72,8 +72,8 @@ bool PartJoin::add(const Drawing& part, const PartCounts& counts,
   std::size_t piece = 0, edge = 0, curve = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::uint32_t o = objects[i];
-    if (!asked[i] && counts.pieces[i] + counts.curved_edges[i] > 0) return false;
-    if (!asked[i]) continue;
+    if (!to_solve[i] && counts.pieces[i] + counts.curved_edges[i] > 0) return false;
+    if (!to_solve[i]) continue;
     if (added_[o]) return false;
     added_[o] = true;
     const First& at = first_[o];

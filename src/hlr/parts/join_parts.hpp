@@ -34,7 +34,7 @@ class PartJoin {
   [[nodiscard]] Status make_room(const Options& options, const parallel::Context& context);
   /// Adds a part; false where it is not the one that was expected.
   [[nodiscard]] bool add(const Drawing& part, const PartCounts& counts,
-                         std::span<const std::uint32_t> objects, const std::vector<bool>& asked);
+                         std::span<const std::uint32_t> objects, const std::vector<bool>& to_solve);
   /// Returns the lines, counts and the account of the whole; `scene` is all of it, though it has no
   /// meshes, and `drawn` says for each of its objects whether it is drawn. Errors: cancelled.
   [[nodiscard]] Result<Drawing> finish(const model::Scene& scene, const std::vector<bool>& drawn,

@@ -28,9 +28,9 @@ struct PaperReach {
 
 class ViewSplitter {
  public:
-  ViewSplitter(const ViewToSplit& whole, std::uint64_t most_bytes, const parallel::Context& context)
+  ViewSplitter(const ViewToSplit& whole, std::uint64_t max_bytes, const parallel::Context& context)
       : whole_(whole),
-        most_bytes_(most_bytes),
+        max_bytes_(max_bytes),
         context_(context),
         paper_(whole.view, whole.drawn),
         crosses_(whole.options.intersections != Intersections::off),
@@ -45,7 +45,7 @@ class ViewSplitter {
       fits = fits && paper_.reaches(whole_.boxes[o]);
     }
     // What lies too far off for this view is an error, which its part tells.
-    if (!fits) most_bytes_ = UINT64_MAX;
+    if (!fits) max_bytes_ = UINT64_MAX;
     if (fits)
       if (const Status placed = place_on_paper(all); !placed) return placed.error();
     if (const Status status = split(all, all); !status) return status.error();
@@ -77,46 +77,46 @@ class ViewSplitter {
   }
 
   /// Returns what a worker takes for an object.
-  [[nodiscard]] std::uint64_t bytes_of(std::uint32_t object, bool asked) const {
+  [[nodiscard]] std::uint64_t bytes_of(std::uint32_t object, bool to_solve) const {
     const std::uint64_t lines = whole_.options.hidden ? kBytesOfLines : kBytesOfVisibleLines;
-    return 2 * std::uint64_t{whole_.bytes[object]} + (asked ? lines : 0);
+    return 2 * std::uint64_t{whole_.bytes[object]} + (to_solve ? lines : 0);
   }
 
-  /// Returns by place in `objects` which of them are among those that are asked for; both ascend.
-  static std::vector<bool> asked_of(const std::vector<std::uint32_t>& objects,
-                                    const std::vector<std::uint32_t>& asked) {
-    std::vector<bool> is_asked(objects.size());
-    auto next = asked.begin();
-    for (std::size_t i = 0; i < objects.size() && next != asked.end(); ++i) {
-      is_asked[i] = *next == objects[i];
-      if (is_asked[i]) ++next;
+  /// Returns by place in `objects` which of them are among those that are requested; both ascend.
+  static std::vector<bool> solve_flags(const std::vector<std::uint32_t>& objects,
+                                       const std::vector<std::uint32_t>& to_solve) {
+    std::vector<bool> is_to_solve(objects.size());
+    auto next = to_solve.begin();
+    for (std::size_t i = 0; i < objects.size() && next != to_solve.end(); ++i) {
+      is_to_solve[i] = *next == objects[i];
+      if (is_to_solve[i]) ++next;
     }
-    return is_asked;
+    return is_to_solve;
   }
 
   /// Returns the part of the objects that `has` picks by place.
   template <class Has>
   [[nodiscard]] ViewPart part_of(const std::vector<std::uint32_t>& objects,
-                                 const std::vector<bool>& is_asked, Has&& has) const {
+                                 const std::vector<bool>& is_to_solve, Has&& has) const {
     ViewPart part;
     for (std::size_t i = 0; i < objects.size(); ++i) {
       if (!has(i)) continue;
       part.objects.push_back(objects[i]);
-      part.asked.push_back(is_asked[i]);
-      part.bytes += bytes_of(objects[i], is_asked[i]);
+      part.to_solve.push_back(is_to_solve[i]);
+      part.bytes += bytes_of(objects[i], is_to_solve[i]);
     }
     return part;
   }
 
-  /// Finds what of some objects may hide or cross those that are asked for.
-  [[nodiscard]] Result<ViewPart> find_part(const std::vector<std::uint32_t>& asked,
+  /// Finds what of some objects may hide or cross those that are requested.
+  [[nodiscard]] Result<ViewPart> find_part(const std::vector<std::uint32_t>& to_solve,
                                            const std::vector<std::uint32_t>& objects) const {
-    const std::vector<bool> is_asked = asked_of(objects, asked);
-    if (asked.size() == objects.size())
-      return part_of(objects, is_asked, [](std::size_t) { return true; });
+    const std::vector<bool> is_to_solve = solve_flags(objects, to_solve);
+    if (to_solve.size() == objects.size())
+      return part_of(objects, is_to_solve, [](std::size_t) { return true; });
     std::vector<SegmentQuery> queries;
     std::vector<Box3l> boxes;
-    for (const std::uint32_t o : asked) {
+    for (const std::uint32_t o : to_solve) {
       if (hides_ && !on_paper_[o].empty()) queries.push_back(anything_in(on_paper_[o]));
       if (crosses_) boxes.push_back(whole_.boxes[o]);
     }
@@ -125,35 +125,36 @@ class ViewSplitter {
     const auto needed = parallel::transform(
         context_, {.name = "what a part needs", .n = objects.size(), .grain = kObjectsAtOnce},
         [&](std::size_t i) -> std::uint8_t {
-          if (is_asked[i]) return 1;
+          if (is_to_solve[i]) return 1;
           const std::uint32_t o = objects[i];
           const bool any = (hides_ && hideable.may_be_hidden_by(on_paper_[o])) ||
                            (crosses_ && solid.any_meets(whole_.boxes[o])) || holds_eye(o);
           return any ? 1 : 0;
         });
     if (!needed) return needed.error();
-    return part_of(objects, is_asked, [&](std::size_t i) { return (*needed)[i] != 0; });
+    return part_of(objects, is_to_solve, [&](std::size_t i) { return (*needed)[i] != 0; });
   }
 
   /// Finds those of some objects that find_part() may pick, and others, by the box of all that is
-  /// asked for: in a small part of the time.
+  /// requested: in a small part of the time.
   [[nodiscard]] Result<std::vector<std::uint32_t>> near(
-      const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) const {
+      const std::vector<std::uint32_t>& to_solve, const std::vector<std::uint32_t>& objects) const {
     ViewBox on_paper;
     Box3l box = geometry::empty_box<std::int64_t>();
-    for (const std::uint32_t o : asked) {
+    for (const std::uint32_t o : to_solve) {
       if (!on_paper_[o].empty()) on_paper.include(on_paper_[o]);
       box.include(whole_.boxes[o]);
     }
     const SegmentQuery hideable = on_paper.empty() ? SegmentQuery() : anything_in(on_paper);
-    const std::vector<bool> is_asked = asked_of(objects, asked);
+    const std::vector<bool> is_to_solve = solve_flags(objects, to_solve);
     const auto needed = parallel::transform(
         context_, {.name = "what is near a part", .n = objects.size(), .grain = kObjectsAtOnce},
         [&](std::size_t i) -> std::uint8_t {
           const std::uint32_t o = objects[i];
           const bool hides = hides_ && !on_paper.empty() && !on_paper_[o].empty() &&
                              hideable.may_be_hidden_by(rounded_outwards(on_paper_[o]));
-          return is_asked[i] || hides || (crosses_ && whole_.boxes[o].meets(box)) || holds_eye(o);
+          return is_to_solve[i] || hides || (crosses_ && whole_.boxes[o].meets(box)) ||
+                 holds_eye(o);
         });
     if (!needed) return needed.error();
     std::vector<std::uint32_t> found;
@@ -171,11 +172,11 @@ class ViewSplitter {
   /// Returns the two halves of some objects along the side of the paper where they lie farther
   /// apart, each ascending.
   [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> halves(
-      const std::vector<std::uint32_t>& asked) const {
+      const std::vector<std::uint32_t>& to_solve) const {
     const auto spread = [&](auto along) {
-      const auto [least, most] = std::ranges::minmax_element(
-          asked, {}, [&](std::uint32_t o) { return places_[o].*along; });
-      return places_[*most].*along - places_[*least].*along;
+      const auto [least, largest] = std::ranges::minmax_element(
+          to_solve, {}, [&](std::uint32_t o) { return places_[o].*along; });
+      return places_[*largest].*along - places_[*least].*along;
     };
     const auto along =
         spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;
@@ -183,22 +184,22 @@ class ViewSplitter {
       const std::int64_t of_x = places_[x].*along, of_y = places_[y].*along;
       return of_x != of_y ? of_x < of_y : x < y;
     };
-    std::vector<std::uint32_t> by_place = asked;
+    std::vector<std::uint32_t> by_place = to_solve;
     const auto middle = by_place.begin() + static_cast<std::ptrdiff_t>(by_place.size() / 2);
     std::nth_element(by_place.begin(), middle, by_place.end(), before);
     std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> parted;
-    for (const std::uint32_t o : asked)
+    for (const std::uint32_t o : to_solve)
       (before(o, *middle) ? parted.first : parted.second).push_back(o);
     return parted;
   }
 
   /// Returns what a worker takes for the lines of some objects, of which `objects` are all that it
   /// has.
-  [[nodiscard]] std::uint64_t bytes_of(const std::vector<std::uint32_t>& asked,
+  [[nodiscard]] std::uint64_t bytes_of(const std::vector<std::uint32_t>& to_solve,
                                        const std::vector<std::uint32_t>& objects) const {
     std::uint64_t bytes = 0;
     for (const std::uint32_t o : objects) bytes += bytes_of(o, false);
-    for (const std::uint32_t o : asked) bytes += bytes_of(o, true) - bytes_of(o, false);
+    for (const std::uint32_t o : to_solve) bytes += bytes_of(o, true) - bytes_of(o, false);
     return bytes;
   }
 
@@ -208,34 +209,35 @@ class ViewSplitter {
   }
 
   /// Makes parts for the lines of some objects, of which `objects` has all that is needed.
-  Status split(const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) {
-    if (asked.size() < 2 || bytes_of(asked, asked) <= most_bytes_) {
-      auto part = find_part(asked, objects);
-      return part ? split_further(asked, std::move(*part)) : part.error();
+  Status split(const std::vector<std::uint32_t>& to_solve,
+               const std::vector<std::uint32_t>& objects) {
+    if (to_solve.size() < 2 || bytes_of(to_solve, to_solve) <= max_bytes_) {
+      auto part = find_part(to_solve, objects);
+      return part ? split_further(to_solve, std::move(*part)) : part.error();
     }
-    const auto [first, second] = halves(asked);
+    const auto [first, second] = halves(to_solve);
     auto near_first = near(first, objects);
     if (!near_first) return near_first.error();
     auto near_second = near(second, objects);
     if (!near_second) return near_second.error();
     if (gains_nothing(bytes_of(first, *near_first), bytes_of(second, *near_second),
-                      bytes_of(asked, objects))) {
-      // What lies near by boxes may not be near by what is drawn of it: that is asked for each
+                      bytes_of(to_solve, objects))) {
+      // What lies near by boxes may not be near by what is drawn of it: that is tested for each
       // half.
-      auto part = find_part(asked, objects);
-      return part ? split_further(asked, std::move(*part)) : part.error();
+      auto part = find_part(to_solve, objects);
+      return part ? split_further(to_solve, std::move(*part)) : part.error();
     }
     if (Status status = split(first, *near_first); !status) return status;
     return split(second, *near_second);
   }
 
   /// Splits a part, as long as one of its halves is smaller for it.
-  Status split_further(const std::vector<std::uint32_t>& asked, ViewPart part) {
-    if (part.bytes <= most_bytes_ || asked.size() < 2) {
+  Status split_further(const std::vector<std::uint32_t>& to_solve, ViewPart part) {
+    if (part.bytes <= max_bytes_ || to_solve.size() < 2) {
       parts_.push_back(std::move(part));
       return {};
     }
-    const auto [first, second] = halves(asked);
+    const auto [first, second] = halves(to_solve);
     auto of_first = find_part(first, part.objects);
     if (!of_first) return of_first.error();
     auto of_second = find_part(second, part.objects);
@@ -250,7 +252,7 @@ class ViewSplitter {
   }
 
   const ViewToSplit& whole_;
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
   const parallel::Context& context_;
   BoundsProjection paper_;
   bool crosses_, hides_;           ///< whether what crosses or hides is to be looked for
@@ -261,9 +263,9 @@ class ViewSplitter {
 
 }  // namespace
 
-Result<std::vector<ViewPart>> split_view(const ViewToSplit& whole, std::uint64_t most_bytes,
+Result<std::vector<ViewPart>> split_view(const ViewToSplit& whole, std::uint64_t max_bytes,
                                          const parallel::Context& context) {
-  return ViewSplitter(whole, most_bytes, context).run();
+  return ViewSplitter(whole, max_bytes, context).run();
 }
 
 }  // namespace strake::hlr

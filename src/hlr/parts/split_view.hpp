@@ -15,7 +15,7 @@ namespace strake::hlr {
 /// A part of a view: objects whose lines it finds, and what may hide or cross these.
 struct ViewPart {
   std::vector<std::uint32_t> objects;  ///< both, ascending
-  std::vector<bool> asked;             ///< by place in `objects`: its lines are found here
+  std::vector<bool> to_solve;          ///< by place in `objects`: its lines are found here
   std::uint64_t bytes = 0;             ///< about what a worker takes for it
 };
 
@@ -28,11 +28,11 @@ struct ViewToSplit {
   std::span<const std::uint32_t> bytes;    ///< about what each takes of a worker's memory
 };
 
-/// Splits the objects of a view into parts that take no more than `most_bytes`, as far as halves of
-/// halves of the paper can be smaller: each object with a box is asked for in one part, and there
+/// Splits the objects of a view into parts that take no more than `max_bytes`, as far as halves of
+/// halves of the paper can be smaller: each object with a box is requested in one part, and there
 /// is one part at least. Errors: cancelled.
 [[nodiscard]] Result<std::vector<ViewPart>> split_view(const ViewToSplit& whole,
-                                                       std::uint64_t most_bytes,
+                                                       std::uint64_t max_bytes,
                                                        const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -34,13 +34,13 @@ constexpr std::array<double, 4> kSpacings{1, 1.5, 0.75, 2};
 constexpr std::size_t kHatchedPerBlock = 1024;
 
 /// Returns the segments of outlines that are hatched, as boxes with their object.
-Result<std::vector<BoxItem>> outlines(const model::Scene& scene, const SectionedShapes& seen,
+Result<std::vector<BoxItem>> outlines(const model::Scene& scene, const SectionedShapes& sectioned,
                                       const std::vector<std::int64_t>& contact,
                                       const parallel::Context& context) {
   return parallel::collect<BoxItem>(
       context, {.name = "hatch: outlines", .n = scene.bodies.size(), .grain = kHatchedPerBlock},
       [&](std::size_t b, std::vector<BoxItem>& items) {
-        const ShapeCut* cut = seen.all[seen.of[b]].cut.get();
+        const ShapeCut* cut = sectioned.all[sectioned.of[b]].cut.get();
         if (cut == nullptr) return;
         const model::GridBody& body = scene.bodies[b];
         for (const auto& rim : cut->rims)
@@ -58,7 +58,8 @@ struct CutObject {
   std::uint32_t object = 0, colour = 0;
 };
 
-Result<std::vector<CutObject>> cut_objects(const model::Scene& scene, const SectionedShapes& seen,
+Result<std::vector<CutObject>> cut_objects(const model::Scene& scene,
+                                           const SectionedShapes& sectioned,
                                            const parallel::Context& context) {
   return parallel::collect<CutObject>(
       context,
@@ -67,7 +68,7 @@ Result<std::vector<CutObject>> cut_objects(const model::Scene& scene, const Sect
        .grain = kHatchedPerBlock},
       [&](std::size_t o, std::vector<CutObject>& out) {
         for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b) {
-          if (seen.all[seen.of[b]].planes.empty()) continue;
+          if (sectioned.all[sectioned.of[b]].planes.empty()) continue;
           const model::Color& c = scene.model->bodies[scene.bodies[b].body].color;
           out.push_back({static_cast<std::uint32_t>(o),
                          (std::uint32_t{c.red} << 16U) | (std::uint32_t{c.green} << 8U) | c.blue});
@@ -131,13 +132,14 @@ double rarest_angle(std::span<const Neighbours::value_type> neighbours,
 
 }  // namespace
 
-Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene, const SectionedShapes& seen,
+Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene,
+                                          const SectionedShapes& sectioned,
                                           const std::vector<std::int64_t>& contact,
                                           const std::vector<Hatch>& given, double usual_mm,
                                           const parallel::Context& context) {
   std::vector<Hatch> hatches = given;
   hatches.resize(scene.model->objects.size());
-  const auto items = outlines(scene, seen, contact, context);
+  const auto items = outlines(scene, sectioned, contact, context);
   if (!items) return items.error();
   const auto tree = geometry::SceneBvh::build(*items, context);
   if (!tree) return tree.error();
@@ -145,7 +147,7 @@ Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene, const Secti
   if (!pairs) return pairs.error();
   const auto neighbours = neighbours_of(*items, *pairs, context);
   if (!neighbours) return neighbours.error();
-  auto cut = cut_objects(scene, seen, context);
+  auto cut = cut_objects(scene, sectioned, context);
   if (!cut) return cut.error();
   number_colours(*cut);
   for (const auto& [o, colour] : *cut) {
@@ -332,15 +334,16 @@ bool is_towards(const ViewJob& job, const SectionPlane& plane) {
 /// Appends the hatch of one body.
 void add_body(const ViewJob& job, std::span<const SectionPlane> planes, std::uint32_t b,
               const Hatch& hatch, std::vector<Line>& out) {
-  const SectionedShape& seen = job.sectioned_shape_of(b);
-  if (!seen.cut || hatch.spacing_mm == 0) return;
+  const SectionedShape& sectioned = job.sectioned_shape_of(b);
+  if (!sectioned.cut || hatch.spacing_mm == 0) return;
   const Vec3l origin = job.scene->bodies[b].origin;
-  for (std::size_t p = 0; p < seen.planes.size(); ++p) {
-    const SectionPlane& plane = planes[seen.numbers[p]];
-    if (!is_towards(job, plane) || seen.cut->rims[p].empty()) continue;
+  for (std::size_t p = 0; p < sectioned.planes.size(); ++p) {
+    const SectionPlane& plane = planes[sectioned.numbers[p]];
+    if (!is_towards(job, plane) || sectioned.cut->rims[p].empty()) continue;
     const HatchGrid grid(plane.normal, job.view, hatch.angle_deg,
                          hatch.spacing_mm * geometry::kGridPerMm);
-    for (const geometry::Segment& line : grid.within(seen.cut->rims[p], seen.planes[p], origin))
+    for (const geometry::Segment& line :
+         grid.within(sectioned.cut->rims[p], sectioned.planes[p], origin))
       out.push_back({line[0] + origin, line[1] + origin, b, b, EdgeKind::hatch, false});
   }
 }
@@ -357,7 +360,8 @@ Result<std::vector<Hatch>> choose_hatches(const ViewJob& job, std::span<const Se
   const double usual_mm = job.options.hatch_spacing_mm < 0 ? usual_number(side_mm / kUsualShare)
                                                            : job.options.hatch_spacing_mm;
   if (const Status status = check(job, usual_mm, side_mm); !status) return status.error();
-  return choose_hatches(*job.scene, job.seen, job.contact, job.options.hatches, usual_mm, context);
+  return choose_hatches(*job.scene, job.sectioned, job.contact, job.options.hatches, usual_mm,
+                        context);
 }
 
 Result<std::vector<Line>> hatch_lines(const ViewJob& job, std::span<const SectionPlane> planes,

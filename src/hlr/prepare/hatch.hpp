@@ -24,7 +24,7 @@ namespace strake::hlr {
 /// Objects are neighbours where outlines of their sections meet within `contact` (by body).
 /// `usual_mm`: the usual spacing. Objects that are not cut keep what was given. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene,
-                                                        const SectionedShapes& seen,
+                                                        const SectionedShapes& sectioned,
                                                         const std::vector<std::int64_t>& contact,
                                                         const std::vector<Hatch>& given,
                                                         double usual_mm,

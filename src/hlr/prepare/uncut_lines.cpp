@@ -19,9 +19,10 @@ std::vector<Box3l> boxes_of_what_is_left(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
   std::vector<Box3l> boxes(scene.bodies.size(), geometry::empty_box<std::int64_t>());
   for (std::uint32_t b = 0; b < boxes.size(); ++b) {
-    const SectionedShape& seen = job.sectioned_shape_of(b);
-    if (job.drawn[model::index(scene.bodies[b].object)] && !seen.away && !seen.source->box.empty())
-      boxes[b] = scene.bodies[b].box(*seen.source);
+    const SectionedShape& sectioned = job.sectioned_shape_of(b);
+    if (job.drawn[model::index(scene.bodies[b].object)] && !sectioned.away &&
+        !sectioned.source->box.empty())
+      boxes[b] = scene.bodies[b].box(*sectioned.source);
   }
   return boxes;
 }
@@ -47,9 +48,9 @@ model::Scene scene_of_what_is_left(const ViewJob& job, const std::vector<bool>& 
   left.first_body = job.scene->first_body;
   left.bodies = job.scene->bodies;
   left.shapes.emplace_back();  // of the bodies that do not matter
-  std::vector<std::uint32_t> number(job.seen.all.size(), kNone);
+  std::vector<std::uint32_t> number(job.sectioned.all.size(), kNone);
   for (std::uint32_t b = 0; b < left.bodies.size(); ++b) {
-    std::uint32_t& shape = number[job.seen.of[b]];
+    std::uint32_t& shape = number[job.sectioned.of[b]];
     const bool matters = objects[model::index(left.bodies[b].object)];
     if (matters && shape == kNone) {
       shape = static_cast<std::uint32_t>(left.shapes.size());

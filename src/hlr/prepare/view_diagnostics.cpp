@@ -35,8 +35,8 @@ std::string name_of(const SectionPlane& plane) {
   return fmt::format("{},{},{} > {:.3f} mm", n.x, n.y, n.z, distance * geometry::kMmPerGrid);
 }
 
-void report_misses(const model::Scene& scene, const std::vector<bool>& drawn,
-                   std::span<const SectionPlane> planes, Diagnostics& diagnostics) {
+void report_unmet_planes(const model::Scene& scene, const std::vector<bool>& drawn,
+                         std::span<const SectionPlane> planes, Diagnostics& diagnostics) {
   for (const SectionPlane& plane : planes) {
     bool kept = false, away = false;
     for (const model::GridBody& body : scene.bodies) {
@@ -58,11 +58,11 @@ void report_misses(const model::Scene& scene, const std::vector<bool>& drawn,
 }  // namespace
 
 Result<Diagnostics> report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
-                                    const SectionedShapes& seen,
+                                    const SectionedShapes& sectioned,
                                     std::span<const SectionPlane> planes,
                                     const parallel::Context& context) {
   Diagnostics diagnostics;
-  report_misses(scene, drawn, planes, diagnostics);
+  report_unmet_planes(scene, drawn, planes, diagnostics);
   if (planes.empty() || scene.first_body.empty()) return diagnostics;
   struct NotClosed {
     std::uint32_t object = 0;
@@ -75,7 +75,7 @@ Result<Diagnostics> report_sections(const model::Scene& scene, const std::vector
       [&](std::size_t o, std::vector<NotClosed>& out) {
         NotClosed object{.object = static_cast<std::uint32_t>(o)};
         for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b)
-          if (const ShapeCut* cut = seen.all[seen.of[b]].cut.get()) {
+          if (const ShapeCut* cut = sectioned.all[sectioned.of[b]].cut.get()) {
             object.open_ends += cut->open_ends;
             object.not_filled += cut->not_filled;
           }

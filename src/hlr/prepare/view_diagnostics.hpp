@@ -22,7 +22,7 @@ namespace strake::hlr {
 /// closed. Errors: cancelled, out of memory.
 [[nodiscard]] Result<Diagnostics> report_sections(const model::Scene& scene,
                                                   const std::vector<bool>& drawn,
-                                                  const SectionedShapes& seen,
+                                                  const SectionedShapes& sectioned,
                                                   std::span<const SectionPlane> planes,
                                                   const parallel::Context& context);
 

@@ -172,7 +172,7 @@ Status check(const View& view, const Options& options) {
                         "round the direction to 20 bits");
   if (!(options.sharp_angle_deg >= 0 && options.sharp_angle_deg <= 180))
     return view_error("the sharp angle is not between 0 and 180 degrees", "20 is the usual angle");
-  if (options.bucketing < Options::kBucketsByData || options.bucketing > Options::kMostBuckets)
+  if (options.bucketing < Options::kBucketsByData || options.bucketing > Options::kMaxBuckets)
     return view_error("the number of buckets is not between 0 and 4096",
                       "leave it out to have it chosen from the faces");
   if (!(options.contact_distance_mm <= kMaxContactMm))
@@ -206,13 +206,15 @@ Status widen_contact(ViewJob& job, const parallel::Context& context) {
   const auto largest = parallel::reduce(
       context, {.name = "view: contacts", .n = job.contact.size(), .grain = kBodiesPerBlock},
       std::int64_t{0},
-      [&](std::int64_t& most, std::size_t index) {
+      [&](std::int64_t& largest_contact, std::size_t index) {
         const auto b = static_cast<std::uint32_t>(index);
         if (!job.drawn[model::index(job.scene->bodies[b].object)]) return;
         job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
-        most = std::max(most, job.contact[b]);
+        largest_contact = std::max(largest_contact, job.contact[b]);
       },
-      [](std::int64_t& into, std::int64_t most) { into = std::max(into, most); });
+      [](std::int64_t& into, std::int64_t largest_contact) {
+        into = std::max(into, largest_contact);
+      });
   if (!largest) return largest.error();
   job.contact_distance_mm = static_cast<double>(*largest) * geometry::kMmPerGrid;
   return {};
@@ -316,23 +318,25 @@ std::int64_t contact_of(const model::Body& body, const Options& options) {
 Result<model::ViewTessellationOptions> tessellation_of(const View& view, const Options& options) {
   const auto planes = section_planes(view.sections);
   if (!planes) return planes.error();
-  model::ViewTessellationOptions seen_by{.sag_mm = options.sag_mm};
+  model::ViewTessellationOptions tessellation_options{.sag_mm = options.sag_mm};
   if (view.perspective)
-    seen_by.eye = view.perspective->eye;
+    tessellation_options.eye = view.perspective->eye;
   else
-    seen_by.towards = in_lowest_terms(view.direction);
+    tessellation_options.towards = in_lowest_terms(view.direction);
   // A margin for tessellation and the grid.
   constexpr std::int64_t kRoom = 2000;
   // What is left whole may reach beyond the planes.
   const ViewVolume shown(
       view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
-  seen_by.shows = [shown](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
-  return seen_by;
+  tessellation_options.shows = [shown](const Box3l& box) {
+    return shown.meets(box.inflated(kRoom));
+  };
+  return tessellation_options;
 }
 
 namespace {
 
-/// Checks what is asked for, and places the bodies.
+/// Checks what is requested, and places the bodies.
 Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& context) {
   const auto& [scene, drawn, view, options, whole] = input;
   if (const Status status = check(view, options); !status) return status.error();
@@ -347,12 +351,13 @@ Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& conte
   job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
   job.window = window(view);
   job.drawn = drawn.empty() ? std::vector<bool>(scene.model->objects.size(), true) : drawn;
-  if (whole != nullptr) job.asked = whole->asked;
-  const auto seen_by = tessellation_of(view, options);
-  if (!seen_by) return seen_by.error();
-  auto own = whole != nullptr ? model::tessellate_for_view(scene, job.drawn, *seen_by,
-                                                           whole->tessellation, context)
-                              : model::tessellate_for_view(scene, job.drawn, *seen_by, context);
+  if (whole != nullptr) job.to_solve = whole->to_solve;
+  const auto tessellation_options = tessellation_of(view, options);
+  if (!tessellation_options) return tessellation_options.error();
+  auto own = whole != nullptr
+                 ? model::tessellate_for_view(scene, job.drawn, *tessellation_options,
+                                              whole->tessellation, context)
+                 : model::tessellate_for_view(scene, job.drawn, *tessellation_options, context);
   if (!own) return own.error();
   if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;
@@ -366,9 +371,9 @@ Status cut_bodies(ViewJob& job, std::span<const SectionPlane> planes, const Whol
                   const parallel::Context& context) {
   job.uncut = find_uncut(*job.scene, job.drawn, job.options.uncut, planes);
   job.counters.uncut_objects = static_cast<std::uint64_t>(std::ranges::count(job.uncut, true));
-  auto seen = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, planes, context);
-  if (!seen) return seen.error();
-  job.seen = std::move(*seen);
+  auto sectioned = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, planes, context);
+  if (!sectioned) return sectioned.error();
+  job.sectioned = std::move(*sectioned);
   if (const Status status = widen_contact(job, context); !status) return status;
   if (whole != nullptr) {
     job.hatches.assign(whole->hatches.begin(), whole->hatches.end());
@@ -390,7 +395,7 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   ViewJob job = std::move(*begun);
   const auto crossings =
       find_intersection_lines(*job.scene, job.drawn, job.contact,
-                              {job.options.intersections, job.cos_sharp, job.asked}, context);
+                              {job.options.intersections, job.cos_sharp, job.to_solve}, context);
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;
@@ -400,7 +405,7 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
   if (input.whole == nullptr) {
-    auto of_sections = report_sections(*job.scene, job.drawn, job.seen, *planes, context);
+    auto of_sections = report_sections(*job.scene, job.drawn, job.sectioned, *planes, context);
     if (!of_sections) return of_sections.error();
     job.diagnostics = std::move(*of_sections);
   }
@@ -411,7 +416,7 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
 }
 
 void take_down(ViewJob& job, const parallel::Context& context) {
-  parallel::clear(job.seen.all, context);
+  parallel::clear(job.sectioned.all, context);
   if (job.own) parallel::clear(job.own->shapes, context);
 }
 
@@ -422,7 +427,7 @@ Result<WholeSections> prepare_sections(const ViewInput& input, const parallel::C
   if (!job) return job.error();
   if (const Status status = cut_bodies(*job, *planes, nullptr, context); !status)
     return status.error();
-  auto diagnostics = report_sections(*job->scene, job->drawn, job->seen, *planes, context);
+  auto diagnostics = report_sections(*job->scene, job->drawn, job->sectioned, *planes, context);
   if (!diagnostics) return diagnostics.error();
   return WholeSections{std::move(job->hatches), job->contact_distance_mm,
                        job->counters.uncut_objects, std::move(*diagnostics)};

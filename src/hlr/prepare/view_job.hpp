@@ -71,12 +71,12 @@ struct ViewJob {
   geometry::Vec3l origin;
   std::optional<geometry::Box3l> limits;  ///< relative to origin, clipped to what is drawn
   std::vector<bool> drawn;                ///< per object
-  std::vector<bool> asked;                ///< as WholeView::asked; or empty
+  std::vector<bool> to_solve;             ///< as WholeView::asked; or empty
   std::vector<bool> opaque;               ///< per body: is drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest contact distance
   std::vector<bool> uncut;                ///< per object: sections leave it whole; or empty
-  SectionedShapes seen;
+  SectionedShapes sectioned;
   std::vector<Hatch> hatches;  ///< per object; empty: nothing is hatched
   Lines lines;
   Counters counters;  ///< counters of the preparation
@@ -87,7 +87,9 @@ struct ViewJob {
     return body.origin - origin;
   }
   /// Returns whether the lines of a drawn object are wanted.
-  [[nodiscard]] bool asks_for(std::uint32_t object) const { return asked.empty() || asked[object]; }
+  [[nodiscard]] bool solves(std::uint32_t object) const {
+    return to_solve.empty() || to_solve[object];
+  }
   /// Returns whether the object of an edge of this kind hides nothing of it, see
   /// Options::own_polylines.
   [[nodiscard]] bool spares_own(EdgeKind kind) const {
@@ -95,7 +97,7 @@ struct ViewJob {
   }
   /// Returns whether facets of a part of a body hide none of the part's own edges where rounding to
   /// the grid alone has them do so: facets that may be edge-on, and edges that lie in the facet's
-  /// plane (see kLyingInPlane and FeatureEdge::away). Not where exact states are asked for.
+  /// plane (see kLyingInPlane and FeatureEdge::away). Not where exact states are requested.
   [[nodiscard]] bool forgives_rounding(std::uint32_t body) const {
     return may_forgive_rounding() && contact[body] > 0;
   }
@@ -103,7 +105,7 @@ struct ViewJob {
   [[nodiscard]] bool may_forgive_rounding() const { return !viewer.eye && !options.keep_specks; }
   /// Returns the feature options in the coordinates of a body's shape.
   [[nodiscard]] FeatureOptions features_of(const model::GridBody& body) const {
-    return {viewer.seen_at(offset(body)), cos_sharp, options.smooth};
+    return {viewer.at_offset(offset(body)), cos_sharp, options.smooth};
   }
   /// Returns whether sections leave the object of a body whole.
   [[nodiscard]] bool is_uncut(std::uint32_t body) const {
@@ -111,11 +113,11 @@ struct ViewJob {
   }
   /// Returns the shape of a body, as sections leave it.
   [[nodiscard]] const SectionedShape& sectioned_shape_of(std::uint32_t body) const {
-    return seen.all[seen.of[body]];
+    return sectioned.all[sectioned.of[body]];
   }
 };
 
-/// Takes the shapes of a job down by all workers, once nobody asks for them any more: in
+/// Takes the shapes of a job down by all workers, once nobody requests them any more: in
 /// perspective each body has one of its own.
 void take_down(ViewJob& job, const parallel::Context& context);
 
@@ -127,7 +129,7 @@ struct WholeView {
   model::ViewTessellation tessellation;                       ///< for the shapes of the part
   std::span<const Hatch> hatches;                             ///< by object; as ViewJob::hatches
   /// By object: its lines are wanted. What else is drawn of the part only hides.
-  std::vector<bool> asked;
+  std::vector<bool> to_solve;
 };
 
 /// What is to be drawn, and how; all outlives the job.

@@ -44,23 +44,24 @@ bool is_chord(const geometry::Ellipse& curve, const geometry::Vec3d& a, const ge
          curve.passes((a + b) * 0.5, sag_mm + kToleranceMm);
 }
 
-Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& seen,
+Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& sectioned,
                               const geometry::Mat3d& linear) {
   ShapeCurves result;
-  const auto found = sectioned_edges(seen, {job.viewer, job.cos_sharp, job.options.smooth}, {});
+  const auto found =
+      sectioned_edges(sectioned, {job.viewer, job.cos_sharp, job.options.smooth}, {});
   if (!found) return found.error();
   const std::vector<FeatureEdge>& edges = *found;
   result.edges = static_cast<std::uint32_t>(edges.size());
-  const auto circles = circles_of_parts(*seen.source, linear, job.direction().as<double>());
+  const auto circles = circles_of_parts(*sectioned.source, linear, job.direction().as<double>());
   const auto placed = [&](const geometry::Vec3i& v) {
-    return geometry::to_mm(v.as<std::int64_t>() + seen.source->base);
+    return geometry::to_mm(v.as<std::int64_t>() + sectioned.source->base);
   };
   std::vector<std::vector<std::uint32_t>> number(circles.size());
   for (std::size_t p = 0; p < circles.size(); ++p) number[p].assign(circles[p].size(), kNone);
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     const auto& all = circles[edges[e].part];
     const geometry::Vec3d a = placed(edges[e].a), b = placed(edges[e].b);
-    const double sag_mm = seen.source->parts[edges[e].part].sag / geometry::kGridPerMm;
+    const double sag_mm = sectioned.source->parts[edges[e].part].sag / geometry::kGridPerMm;
     for (std::size_t c = 0; c < all.size(); ++c) {
       if (!is_chord(all[c], a, b, sag_mm)) continue;
       std::uint32_t& n = number[edges[e].part][c];
@@ -75,8 +76,8 @@ Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& seen,
   return result;
 }
 
-bool is_round(const SectionedShape& seen) {
-  return std::ranges::any_of(seen.source->parts, [](const geometry::Part& part) {
+bool is_round(const SectionedShape& sectioned) {
+  return std::ranges::any_of(sectioned.source->parts, [](const geometry::Part& part) {
     return part.primitive && geometry::is_round(*part.primitive);
   });
 }
@@ -85,13 +86,13 @@ bool is_round(const SectionedShape& seen) {
 /// round, or comes before a round one of its object, whose edges are numbered after its own.
 std::vector<std::uint32_t> first_bodies(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
-  std::vector<std::uint32_t> first(job.seen.all.size(), kNone);
+  std::vector<std::uint32_t> first(job.sectioned.all.size(), kNone);
   for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o) {
-    if (!job.drawn[o] || !job.asks_for(static_cast<std::uint32_t>(o))) continue;
+    if (!job.drawn[o] || !job.solves(static_cast<std::uint32_t>(o))) continue;
     bool matters = false;
     for (std::uint32_t b = scene.first_body[o + 1]; b-- > scene.first_body[o];) {
       matters = matters || is_round(job.sectioned_shape_of(b));
-      if (matters && first[job.seen.of[b]] == kNone) first[job.seen.of[b]] = b;
+      if (matters && first[job.sectioned.of[b]] == kNone) first[job.sectioned.of[b]] = b;
     }
   }
   return first;
@@ -111,7 +112,7 @@ Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context)
       [&](std::size_t s) -> Result<ShapeCurves> {
         if (first[s] == kNone) return ShapeCurves{};
         const model::Body& body = scene.model->bodies[scene.bodies[first[s]].body];
-        return curves_of(job, job.seen.all[s], body.placement.linear);
+        return curves_of(job, job.sectioned.all[s], body.placement.linear);
       });
   if (!shapes) return shapes.error();
   std::uint32_t number = 0;
@@ -119,8 +120,8 @@ Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context)
     const model::GridBody& body = scene.bodies[b];
     if (b == scene.first_body[model::index(body.object)]) number = 0;
     const std::uint32_t object = model::index(body.object);
-    if (!job.drawn[object] || !job.asks_for(object)) continue;
-    const ShapeCurves& shape = (*shapes)[job.seen.of[b]];
+    if (!job.drawn[object] || !job.solves(object)) continue;
+    const ShapeCurves& shape = (*shapes)[job.sectioned.of[b]];
     const auto before = static_cast<std::uint32_t>(curves.all.size());
     const geometry::Vec3l origin = body.origin - job.sectioned_shape_of(b).source->base;
     for (const geometry::Ellipse& circle : shape.circles) curves.all.push_back({origin, circle});

@@ -141,9 +141,9 @@ bool lies_on(const Segment& line, const LineMeasure& on, std::int64_t rounded) {
 
 /// Finds the seam of an edge of the drawing among those of its body. A part that is cut has other
 /// numbers for its edges, which are found by their places.
-const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& seen, const Vec3l& origin,
-                         std::span<const FlushSeam> of_body) {
-  if (!seen.cut) {
+const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& sectioned,
+                         const Vec3l& origin, std::span<const FlushSeam> of_body) {
+  if (!sectioned.cut) {
     const auto number = std::pair(edge.part, edge.part_edge);
     const auto found = std::ranges::lower_bound(
         of_body, number, {}, [](const FlushSeam& s) { return std::pair(s.part, s.edge); });
@@ -151,7 +151,7 @@ const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& seen, co
                                                                                    : nullptr;
   }
   const Segment line{edge.a.as<std::int64_t>() + origin, edge.b.as<std::int64_t>() + origin};
-  const auto rounded = static_cast<std::int64_t>(seen.planes.size());
+  const auto rounded = static_cast<std::int64_t>(sectioned.planes.size());
   const auto found = std::ranges::find_if(of_body, [&](const FlushSeam& seam) {
     return seam.part == edge.part && lies_on(line, seam.on, rounded);
   });
@@ -169,12 +169,12 @@ class DrawnSeams {
     const model::Scene& scene = *job_.scene;
     std::uint32_t number = 0;
     for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
-      const SectionedShape& seen = job_.sectioned_shape_of(b);
-      const auto edges = sectioned_edges(seen, job_.features_of(scene.bodies[b]), {});
+      const SectionedShape& sectioned = job_.sectioned_shape_of(b);
+      const auto edges = sectioned_edges(sectioned, job_.features_of(scene.bodies[b]), {});
       if (!edges) return edges.error();
       const std::span<const FlushSeam> own = of_body(b);
       for (const FeatureEdge& edge : *edges)
-        push(object, number++, seam_of(edge, seen, scene.bodies[b].origin, own), out);
+        push(object, number++, seam_of(edge, sectioned, scene.bodies[b].origin, own), out);
     }
     for (const Line& line : job_.lines.of(object)) push(object, number++, seam_along(line), out);
     return {};

@@ -60,9 +60,9 @@ Int128 LineMeasure::room(std::int64_t distance) const {
 }
 
 bool LineMeasure::passes(const Vec3l& point, std::int64_t distance) const {
-  const Int128 most = room(distance);
+  const Int128 largest = room(distance);
   return std::ranges::all_of(geometry::wide_cross(line[1] - line[0], point - line[0]),
-                             [&](Int128 k) { return magnitude(k) <= most; });
+                             [&](Int128 k) { return magnitude(k) <= largest; });
 }
 
 Segment edge_line(const geometry::PlacedPart& placed, std::uint32_t edge) {
@@ -76,10 +76,10 @@ std::vector<SeamSurface> seam_surfaces(const ViewJob& job) {
   std::vector<SeamSurface> surfaces;
   for (std::uint32_t b = 0; b < job.scene->bodies.size(); ++b) {
     const model::GridBody& body = job.scene->bodies[b];
-    const SectionedShape& seen = job.sectioned_shape_of(b);
-    if (!job.drawn[model::index(body.object)] || seen.away) continue;
-    for (std::uint32_t p = 0; p < seen.source->parts.size(); ++p)
-      if (const geometry::Part& part = seen.source->parts[p];
+    const SectionedShape& sectioned = job.sectioned_shape_of(b);
+    if (!job.drawn[model::index(body.object)] || sectioned.away) continue;
+    for (std::uint32_t p = 0; p < sectioned.source->parts.size(); ++p)
+      if (const geometry::Part& part = sectioned.source->parts[p];
           !part.triangles.empty() && !part.edges.empty())
         surfaces.push_back({{&part, body.origin}, b, p, job.contact[b]});
   }
@@ -172,10 +172,10 @@ class PairLines {
   /// Returns what sections leave of an edge of a part.
   [[nodiscard]] std::optional<Segment> what_is_left(std::uint32_t surface,
                                                     const Segment& line) const {
-    const SectionedShape& seen = job_.sectioned_shape_of(surfaces_[surface].body);
-    if (seen.planes.empty()) return line;
+    const SectionedShape& sectioned = job_.sectioned_shape_of(surfaces_[surface].body);
+    if (sectioned.planes.empty()) return line;
     const Vec3l& origin = surfaces_[surface].placed.origin;
-    auto left = geometry::left_of({line[0] - origin, line[1] - origin}, seen.planes);
+    auto left = geometry::left_of({line[0] - origin, line[1] - origin}, sectioned.planes);
     if (left)
       for (Vec3l& end : *left) end = end + origin;
     return left;

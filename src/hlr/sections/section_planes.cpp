@@ -15,7 +15,7 @@ using geometry::Vec3l;
 
 constexpr std::int64_t kMaxNormal = std::int64_t{1} << 20;
 constexpr std::int64_t kMaxPoint = std::int64_t{1} << 50;
-constexpr std::size_t kMostPlanes = 16;
+constexpr std::size_t kMaxPlanes = 16;
 
 Error section_error(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), "section", std::move(mend)};
@@ -73,8 +73,7 @@ Result<std::vector<SectionPlane>> section_planes(std::span<const Section> sectio
   std::ranges::sort(planes);
   const auto repeated = std::ranges::unique(planes);
   planes.erase(repeated.begin(), repeated.end());
-  if (planes.size() > kMostPlanes)
-    return section_error("more than 16 section planes", "give fewer");
+  if (planes.size() > kMaxPlanes) return section_error("more than 16 section planes", "give fewer");
   return planes;
 }
 

@@ -64,11 +64,11 @@ geometry::Part nothing_of(const geometry::Part& part) {
 
 SectionedShape cut_shape(const model::Scene& scene, const BodySections& body_sections) {
   const model::GridShape& source = scene.shapes[body_sections.shape];
-  SectionedShape seen{
+  SectionedShape sectioned{
       &source, body_sections.numbers, body_sections.planes, body_sections.away, nullptr, 0};
-  if (!body_sections.away && body_sections.planes.empty()) return seen;
-  seen.cut = std::make_unique<ShapeCut>();
-  ShapeCut& cut = *seen.cut;
+  if (!body_sections.away && body_sections.planes.empty()) return sectioned;
+  sectioned.cut = std::make_unique<ShapeCut>();
+  ShapeCut& cut = *sectioned.cut;
   cut.rims.resize(body_sections.planes.size());
   for (const geometry::Part& part : source.parts) {
     if (body_sections.away) {
@@ -83,14 +83,14 @@ SectionedShape cut_shape(const model::Scene& scene, const BodySections& body_sec
     }
     cut.open_ends += one.open_ends;
     cut.not_filled += one.not_filled;
-    seen.within = std::max<std::int64_t>(seen.within, one.rounded);
+    sectioned.within = std::max<std::int64_t>(sectioned.within, one.rounded);
     cut.shape.parts.push_back(std::move(one.part));
   }
   cut.shape.shape = source.shape;
   cut.shape.base = source.base;
   // The box is the source's: edges may be left where rounding leaves no face.
   cut.shape.box = source.box;
-  return seen;
+  return sectioned;
 }
 
 /// Looks up an edge of a cut part by its ends: part-edge numbers are those of the source.
@@ -109,8 +109,8 @@ std::uint32_t edge_in(const geometry::Part& part, const Vec3i& a, const Vec3i& b
 
 class EdgeCutter {
  public:
-  EdgeCutter(const SectionedShape& seen, const FeatureOptions& options)
-      : seen_(seen), options_(options) {}
+  EdgeCutter(const SectionedShape& sectioned, const FeatureOptions& options)
+      : sectioned_(sectioned), options_(options) {}
 
   std::vector<FeatureEdge> run(std::span<const FeatureEdge> edges) {
     for (const FeatureEdge& e : edges) add(e);
@@ -124,7 +124,8 @@ class EdgeCutter {
  private:
   void add(const FeatureEdge& e) {
     const Segment whole{e.a.as<std::int64_t>(), e.b.as<std::int64_t>()};
-    const auto left = seen_.away ? std::nullopt : geometry::left_of(whole, std::span(seen_.planes));
+    const auto left =
+        sectioned_.away ? std::nullopt : geometry::left_of(whole, std::span(sectioned_.planes));
     if (!left) return push(e, whole, true);
     const Segment before{whole[0], (*left)[0]}, after{(*left)[1], whole[1]};
     push(e, before, true);
@@ -139,13 +140,13 @@ class EdgeCutter {
     e.cut_away = cut_away;
     // An edge that rounding laid along the direction, or turned a little off it, is a point on
     // paper.
-    e.projecting = e.projecting || options_.viewer.sees_as_point(at[0], at[1]);
-    if (e.part_edge != kNoPartEdge && seen_.cut)
-      e.part_edge = cut_away ? kNoPartEdge : edge_in(seen_.shape().parts[e.part], e.a, e.b);
+    e.projecting = e.projecting || options_.viewer.projects_to_point(at[0], at[1]);
+    if (e.part_edge != kNoPartEdge && sectioned_.cut)
+      e.part_edge = cut_away ? kNoPartEdge : edge_in(sectioned_.shape().parts[e.part], e.a, e.b);
     edges_.push_back(e);
   }
 
-  const SectionedShape& seen_;
+  const SectionedShape& sectioned_;
   const FeatureOptions& options_;
   std::vector<FeatureEdge> edges_;
 };
@@ -157,7 +158,7 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
                                               const std::vector<bool>& uncut,
                                               std::span<const SectionPlane> planes,
                                               const parallel::Context& context) {
-  SectionedShapes seen;
+  SectionedShapes sectioned;
   const auto is_cut = [&](std::size_t b) {
     const std::uint32_t object = model::index(scene.bodies[b].object);
     return drawn[object] && (uncut.empty() || !uncut[object]);
@@ -167,29 +168,29 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
         context, {.name = "sections: whole shapes", .n = scene.shapes.size(), .grain = 4096},
         [&](std::size_t s) { return SectionedShape{&scene.shapes[s], {}, {}, false, nullptr, 0}; });
     if (!all) return all.error();
-    seen.all = std::move(*all);
+    sectioned.all = std::move(*all);
     auto of = parallel::transform(
         context, {.name = "sections: none", .n = scene.bodies.size(), .grain = 4096},
         [&](std::size_t b) { return scene.bodies[b].grid_shape; });
     if (!of) return of.error();
-    seen.of = std::move(*of);
-    return seen;
+    sectioned.of = std::move(*of);
+    return sectioned;
   }
-  auto sights = parallel::transform(
+  auto cuts_of_bodies = parallel::transform(
       context, {.name = "sections: planes", .n = scene.bodies.size(), .grain = 1024},
       [&](std::size_t b) {
         return is_cut(b)
                    ? body_sections_of(scene, scene.bodies[b], planes)
                    : BodySections{.shape = scene.bodies[b].grid_shape, .numbers = {}, .planes = {}};
       });
-  if (!sights) return sights.error();
+  if (!cuts_of_bodies) return cuts_of_bodies.error();
   auto kinds = parallel::distinct(
-      context, "sections: equal cuts", sights->size(),
-      [&](std::size_t b) { return hash_of((*sights)[b]); },
-      [&](std::size_t a, std::size_t b) { return (*sights)[a] == (*sights)[b]; });
+      context, "sections: equal cuts", cuts_of_bodies->size(),
+      [&](std::size_t b) { return hash_of((*cuts_of_bodies)[b]); },
+      [&](std::size_t a, std::size_t b) { return (*cuts_of_bodies)[a] == (*cuts_of_bodies)[b]; });
   if (!kinds) return kinds.error();
   const auto order = parallel::longest_first(kinds->first.size(), [&](std::size_t k) {
-    const BodySections& body_sections = (*sights)[kinds->first[k]];
+    const BodySections& body_sections = (*cuts_of_bodies)[kinds->first[k]];
     std::size_t triangles = 0;
     for (const geometry::Part& part : scene.shapes[body_sections.shape].parts)
       triangles += part.triangles.size();
@@ -197,20 +198,20 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
   });
   auto all = parallel::transform(
       context, {.name = "sections: shapes", .n = kinds->first.size(), .order = order},
-      [&](std::size_t k) { return cut_shape(scene, (*sights)[kinds->first[k]]); });
+      [&](std::size_t k) { return cut_shape(scene, (*cuts_of_bodies)[kinds->first[k]]); });
   if (!all) return all.error();
-  seen.all = std::move(*all);
-  seen.of = std::move(kinds->of);
-  parallel::clear(*sights, context);
-  return seen;
+  sectioned.all = std::move(*all);
+  sectioned.of = std::move(kinds->of);
+  parallel::clear(*cuts_of_bodies, context);
+  return sectioned;
 }
 
-Result<std::vector<FeatureEdge>> sectioned_edges(const SectionedShape& seen,
+Result<std::vector<FeatureEdge>> sectioned_edges(const SectionedShape& sectioned,
                                                  const FeatureOptions& options,
                                                  const parallel::Context& context) {
-  auto edges = feature_edges(*seen.source, options, context);
-  if (!edges || (!seen.away && seen.planes.empty())) return edges;
-  return EdgeCutter(seen, options).run(*edges);
+  auto edges = feature_edges(*sectioned.source, options, context);
+  if (!edges || (!sectioned.away && sectioned.planes.empty())) return edges;
+  return EdgeCutter(sectioned, options).run(*edges);
 }
 
 }  // namespace strake::hlr

@@ -52,7 +52,7 @@ struct SectionedShapes {
 
 /// Returns the feature edges of the source, in two or three pieces where planes cut them: their
 /// kind does not change with a cut. Errors: cancelled.
-[[nodiscard]] Result<std::vector<FeatureEdge>> sectioned_edges(const SectionedShape& seen,
+[[nodiscard]] Result<std::vector<FeatureEdge>> sectioned_edges(const SectionedShape& sectioned,
                                                                const FeatureOptions& options,
                                                                const parallel::Context& context);
 

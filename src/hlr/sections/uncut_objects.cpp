@@ -52,11 +52,12 @@ bool is_left_whole(const model::Scene& scene, model::ObjectId object,
 }  // namespace
 
 std::vector<bool> find_uncut(const model::Scene& scene, const std::vector<bool>& drawn,
-                             const std::vector<bool>& asked, std::span<const SectionPlane> planes) {
-  if (planes.empty() || std::ranges::find(asked, true) == asked.end()) return {};
-  std::vector<bool> uncut(asked.size());
-  for (std::uint32_t o = 0; o < asked.size(); ++o)
-    uncut[o] = asked[o] && drawn[o] && is_left_whole(scene, model::ObjectId{o}, planes);
+                             const std::vector<bool>& to_solve,
+                             std::span<const SectionPlane> planes) {
+  if (planes.empty() || std::ranges::find(to_solve, true) == to_solve.end()) return {};
+  std::vector<bool> uncut(to_solve.size());
+  for (std::uint32_t o = 0; o < to_solve.size(); ++o)
+    uncut[o] = to_solve[o] && drawn[o] && is_left_whole(scene, model::ObjectId{o}, planes);
   return uncut;
 }
 

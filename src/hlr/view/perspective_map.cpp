@@ -86,10 +86,10 @@ bool PerspectiveSegment::is_steep() const {
 SegmentQuery PerspectiveSegment::make_query(double from, double to) const {
   SegmentQuery s{.au = a_.u, .av = a_.v, .du = b_.u - a_.u, .dv = b_.v - a_.v};
   const double p = fraction(from), q = fraction(to);
-  const auto range = [&](double start, double step, double& least, double& most) {
+  const auto range = [&](double start, double step, double& least, double& largest) {
     const double slack = error_bound_ + 1e-12 * (std::fabs(start) + std::fabs(step));
     least = start + std::min(step * p, step * q) - slack;
-    most = start + std::max(step * p, step * q) + slack;
+    largest = start + std::max(step * p, step * q) + slack;
   };
   double w1 = 0;
   range(a_.u, s.du, s.u0, s.u1);
@@ -140,10 +140,10 @@ ViewBox PerspectiveMap::box_of(std::span<const Vec3l> corners) const {
   std::vector<Ray> before, beside;
   for (const Vec3l& corner : corners) {
     const auto p = corner.as<double>();
-    if (const auto seen = at(corner)) {
-      u.include(seen->u, seen->error_bound);
-      v.include(seen->v, seen->error_bound);
-      w.include(seen->w, seen->error_bound);
+    if (const auto mapped = at(corner)) {
+      u.include(mapped->u, mapped->error_bound);
+      v.include(mapped->v, mapped->error_bound);
+      w.include(mapped->w, mapped->error_bound);
     }
     const Ray ray{dot(axes_.right, p), dot(axes_.up, p), -dot(axes_.toward, p), size_of(p)};
     (ray.z > kGrazing * ray.size ? before : beside).push_back(ray);

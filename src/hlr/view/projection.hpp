@@ -100,12 +100,12 @@ struct Viewer {
            geometry::Int256(0);
   }
   /// Returns whether a segment is a point on paper.
-  [[nodiscard]] constexpr bool sees_as_point(const geometry::Vec3l& a,
-                                             const geometry::Vec3l& b) const {
+  [[nodiscard]] constexpr bool projects_to_point(const geometry::Vec3l& a,
+                                                 const geometry::Vec3l& b) const {
     return is_zero(wide_cross(b - a, eye ? *eye - a : direction));
   }
   /// Returns the viewer in the coordinates of a body that is placed at an offset.
-  [[nodiscard]] constexpr Viewer seen_at(const geometry::Vec3l& offset) const {
+  [[nodiscard]] constexpr Viewer at_offset(const geometry::Vec3l& offset) const {
     return eye ? Viewer{direction, *eye - offset} : *this;
   }
 };
@@ -125,7 +125,7 @@ struct ViewAxes {
 /// that run askew to the paper's own axes, as pipes do in isometric views, have tight boxes in it.
 struct PaperRotation {
   /// The largest |c| and |s|.
-  static constexpr std::int64_t kMost = 64;
+  static constexpr std::int64_t kMax = 64;
 
   std::int64_t c = 1, s = 0;
 

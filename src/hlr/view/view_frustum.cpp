@@ -21,7 +21,7 @@ using geometry::Vec3l;
 
 constexpr double kFinestNormal = 1048576;  // 20 bits of a normal
 constexpr std::int64_t kMaxEye = std::int64_t{1} << 50;
-constexpr double kLeastNearMm = geometry::kMmPerGrid, kMostNearMm = 1e6;
+constexpr double kMinNearMm = geometry::kMmPerGrid, kMaxNearMm = 1e6;
 constexpr double kNarrowest = 1, kWidest = 160;
 
 bool within_reach(const Vec3l& p) {
@@ -73,7 +73,7 @@ Status check_perspective(const View& view) {
                       "give points near the model");
   if (p.eye == p.target)
     return view_error("the eye and the target are the same point", "give a target to look at");
-  if (!(p.near_mm >= kLeastNearMm && p.near_mm <= kMostNearMm))
+  if (!(p.near_mm >= kMinNearMm && p.near_mm <= kMaxNearMm))
     return view_error("the near distance is not between a micrometre and a kilometre",
                       "write 1um to 1km; 100mm is the usual one");
   if (!(p.field_of_view_deg >= kNarrowest && p.field_of_view_deg <= kWidest))

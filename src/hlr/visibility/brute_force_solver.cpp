@@ -152,13 +152,13 @@ class Solver {
   void hide(const Edge& e, std::uint32_t body_index, std::uint32_t part_index,
             const Interval& range, Sides& sides) const {
     const model::GridBody& body = job_.scene->bodies[body_index];
-    const SectionedShape& seen = job_.sectioned_shape_of(body_index);
-    const geometry::Part& part = seen.shape().parts[part_index];
+    const SectionedShape& sectioned = job_.sectioned_shape_of(body_index);
+    const geometry::Part& part = sectioned.shape().parts[part_index];
     const bool same_part = e.body == body_index && e.part == part_index;
     std::int64_t contact =
         std::max({job_.contact[e.body], job_.contact[e.other_body], job_.contact[body_index]});
     if (e.part == kNoPart) contact = std::max(contact, job_.lines.contact);
-    if (same_part) contact = seen.within;
+    if (same_part) contact = sectioned.within;
     const bool forgives = same_part && job_.forgives_rounding(body_index);
     const std::int64_t lying = forgives && !e.away ? kLyingInPlane : 0;
     for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
@@ -200,7 +200,8 @@ class Solver {
     bool empty = false;
     for (std::size_t k = 0; k < 3 && !empty; ++k) {
       const Vec3l &q = f.corner[k], &r = f.corner[(k + 1) % 3];
-      apply({turn(q, r, e.a), turn(q, r, e.b), side * same_way(e, q, r)}, range, empty);
+      apply({side_on_paper(q, r, e.a), side_on_paper(q, r, e.b), side * same_way(e, q, r)}, range,
+            empty);
     }
     if (empty) return;
     Int128 size = 0;
@@ -223,7 +224,7 @@ class Solver {
   }
 
   // Returns a value that is positive where x lies to the left of q->r on paper.
-  Int128 turn(const Vec3l& q, const Vec3l& r, const Vec3l& x) const {
+  Int128 side_on_paper(const Vec3l& q, const Vec3l& r, const Vec3l& x) const {
     return from_eye_ ? -dot(cross(q, r), x) : orientation(q, r, x, d_);
   }
 

@@ -123,7 +123,7 @@ void OccluderGatherer::gather_own_objects() {
 }
 
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
-// edge wholly, completely. Decision 0066 says why it hides none of its wires unless asked to.
+// edge wholly, completely. Decision 0066 says why it hides none of its wires unless requested to.
 void OccluderGatherer::gather_own_objects_untimed() {
   if (job_.spares_own(edge_.kind) || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
@@ -221,7 +221,7 @@ bool OccluderGatherer::find_neighbours() {
 
 void OccluderGatherer::gather_own_body() {
   if (!edge_.own->shares_self_occlusion) return test_own_body();
-  const SelfOcclusion& known = visibility_.self_occlusion[job_.seen.of[edge_.body]];
+  const SelfOcclusion& known = visibility_.self_occlusion[job_.sectioned.of[edge_.body]];
   for (const OcclusionInterval& interval :
        known.of(static_cast<std::uint32_t>(edge_.feature - edge_.own->shape->edges.data())))
     if (!add(interval)) return;
@@ -297,7 +297,8 @@ bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
 bool OccluderGatherer::test_part(const ProjectedShape& shape, const OccluderPart& part,
                                  const Rule& rule) {
   if (!may_be_hidden_by(local_, part.box)) return true;
-  if (!part.turn.is_none() && !make_query(part.turn).may_be_hidden_by(part.turned)) return true;
+  if (!part.rotation.is_none() && !make_query(part.rotation).may_be_hidden_by(part.rotated_box))
+    return true;
   if (is_deep_under(part, std::max(rule.contact, rule.lying))) {
     ++work.tests;
     work.wide_tests += local_.narrow ? 0 : 1;
@@ -308,7 +309,7 @@ bool OccluderGatherer::test_part(const ProjectedShape& shape, const OccluderPart
     return more = test_polygon(shape, shape.polygons[part.first + i], rule);
   };
   if (!part.tree.empty()) {
-    part.tree.traverse(make_query(part.turn), test);
+    part.tree.traverse(make_query(part.rotation), test);
   } else if (!part.buckets.empty()) {
     part.buckets.traverse(make_query(), marks_, test);
   } else {
@@ -416,8 +417,8 @@ SegmentQuery OccluderGatherer::make_query() const {
                                      : on_segment(local_.va, local_.vb, local_.box);
 }
 
-SegmentQuery OccluderGatherer::make_query(const PaperRotation& turn) const {
-  return turn.is_none() ? make_query() : turned_query(local_.va, local_.vb, open_, turn);
+SegmentQuery OccluderGatherer::make_query(const PaperRotation& rotation) const {
+  return rotation.is_none() ? make_query() : rotated_query(local_.va, local_.vb, open_, rotation);
 }
 
 // The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
@@ -537,7 +538,7 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
   if (!done) return done;
   visibility.self_occlusion.resize(visibility.shapes.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
-    SelfOcclusion& all = visibility.self_occlusion[visibility.job.seen.of[items[i].body]];
+    SelfOcclusion& all = visibility.self_occlusion[visibility.job.sectioned.of[items[i].body]];
     if (!all.first.empty()) all.first.pop_back();
     const auto base = static_cast<std::uint32_t>(all.intervals.size());
     for (const std::uint32_t first : parts[i].intervals.first) all.first.push_back(base + first);

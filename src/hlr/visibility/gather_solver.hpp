@@ -95,7 +95,7 @@ class OccluderGatherer {
   void set_open(const OpenRange& open);
   void find_open_part();
   [[nodiscard]] SegmentQuery make_query() const;
-  [[nodiscard]] SegmentQuery make_query(const PaperRotation& turn) const;
+  [[nodiscard]] SegmentQuery make_query(const PaperRotation& rotation) const;
   [[nodiscard]] SegmentQuery make_perspective_query() const;
 
   const VisibilityScene& visibility_;

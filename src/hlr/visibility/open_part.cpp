@@ -58,25 +58,25 @@ ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open) 
   return {{u.lo, v.lo, w.lo}, {u.hi, v.hi, w.hi}};
 }
 
-SegmentQuery turned_query(const ViewPoint& a, const ViewPoint& b, const OpenRange& open,
-                          const PaperRotation& turn) {
+SegmentQuery rotated_query(const ViewPoint& a, const ViewPoint& b, const OpenRange& open,
+                           const PaperRotation& rotation) {
   SegmentQuery s;
-  const std::int64_t whole = kExactInDouble / (2 * PaperRotation::kMost);
+  const std::int64_t whole = kExactInDouble / (2 * PaperRotation::kMax);
   const bool exact = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < whole;
   const auto au = static_cast<double>(a.u), av = static_cast<double>(a.v);
   const double bu = static_cast<double>(b.u) - au, bv = static_cast<double>(b.v) - av;
   const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
-  const auto c = static_cast<double>(turn.c), k = static_cast<double>(turn.s);
+  const auto c = static_cast<double>(rotation.c), k = static_cast<double>(rotation.s);
   const double du = c * bu + k * bv, dv = c * bv - k * bu;
   s.au = c * au + k * av;
   s.av = c * av - k * au;
   s.du = exact ? du : 0;
   s.dv = exact ? dv : 0;
-  const auto range = [&](double from, double step, double size, double& least, double& most) {
+  const auto range = [&](double from, double step, double size, double& least, double& largest) {
     const double p = from + step * open.lo().value, q = from + step * open.hi().value;
     const double slack = kRoundingOfPoint * size;
     least = std::min(p, q) - slack;
-    most = std::max(p, q) + slack;
+    largest = std::max(p, q) + slack;
   };
   const auto size = [&](double x, double y) { return std::abs(c * x) + std::abs(k * y); };
   double w1 = 0;

@@ -15,8 +15,8 @@ namespace strake::hlr {
 /// is open on one side only it is a unit farther on that side.
 [[nodiscard]] ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open);
 
-/// Returns the query for what may hide the open part of an edge in boxes that are turned.
-[[nodiscard]] SegmentQuery turned_query(const ViewPoint& a, const ViewPoint& b,
-                                        const OpenRange& open, const PaperRotation& turn);
+/// Returns the query for what may hide the open part of an edge in boxes that are rotated.
+[[nodiscard]] SegmentQuery rotated_query(const ViewPoint& a, const ViewPoint& b,
+                                         const OpenRange& open, const PaperRotation& rotation);
 
 }  // namespace strake::hlr

@@ -41,7 +41,7 @@ void add(LineCount& lines, const SolverWork& work);
 /// made when the loop begins.
 class StepShares {
  public:
-  /// `report` null: nobody asks, and no item is timed.
+  /// `report` null: nobody needs it, and no item is timed.
   StepShares(parallel::RunReport* report, Stage stage, std::size_t items);
 
   /// Returns whether an item is one of the sample.

@@ -64,7 +64,8 @@ class Absorber {
     const bool is_short = rule_.within(spans_[first].a, spans_[last - 1].b, longest_);
     const bool lonely = (before == nullptr || before->stays) && (after == nullptr || after->stays);
     const bool at_end = before != nullptr || after != nullptr;
-    const std::uint8_t kind = is_short && !lonely ? kind_beside(before, after) : most(first, last);
+    const std::uint8_t kind =
+        is_short && !lonely ? kind_beside(before, after) : largest(first, last);
     for (std::size_t i = first; i < last; ++i) {
       spans_[i].kind = kind;
       spans_[i].stays = is_short && lonely && at_end;
@@ -80,7 +81,7 @@ class Absorber {
     return x > y ? before->kind : after->kind;
   }
 
-  [[nodiscard]] std::uint8_t most(std::size_t first, std::size_t last) const {
+  [[nodiscard]] std::uint8_t largest(std::size_t first, std::size_t last) const {
     std::array<double, 2> length{};
     for (std::size_t i = first; i < last; ++i)
       length[spans_[i].kind] += rule_.length(spans_[i].a, spans_[i].b);
@@ -105,16 +106,16 @@ class EdgeSpecks {
   }
 
   std::size_t absorb() {
-    const bool any_seen =
+    const bool any_visible =
         std::ranges::find(pieces_, State::visible, &EdgePiece::state) != pieces_.end();
-    std::vector<EdgeSpan> seen = spans(0, pieces_.size(), [](const EdgePiece& p) {
+    std::vector<EdgeSpan> visible_spans = spans(0, pieces_.size(), [](const EdgePiece& p) {
       return static_cast<std::uint8_t>(is_hidden(p.state) ? 1 : 0);
     });
-    std::size_t specks = Absorber(rule_, longest_, seen).run();
-    for (const EdgeSpan& span : seen) show(span);
+    std::size_t specks = Absorber(rule_, longest_, visible_spans).run();
+    for (const EdgeSpan& span : visible_spans) show(span);
     // What hides pieces that are left out depends on the order in which it was found, and whether
     // an edge that is hidden wholly has pieces at all.
-    if (!rule_.keeps_hidden()) return any_seen ? specks : 0;
+    if (!rule_.keeps_hidden()) return any_visible ? specks : 0;
     for (std::size_t first = 0; first < pieces_.size();) {
       std::size_t last = first;
       while (last < pieces_.size() && is_hidden(pieces_[last].state)) ++last;

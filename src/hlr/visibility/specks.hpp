@@ -60,13 +60,13 @@ class SpeckRule {
 /// so, and an edge that is a speck as a whole has one state. Returns how many specks there were.
 std::size_t absorb_specks(const SpeckRule& rule, std::size_t first, std::vector<EdgePiece>& pieces);
 
-/// Pieces of an edge that the options do not ask for.
+/// Pieces of an edge that the options do not request.
 struct UnwantedPieces {
   bool hidden = false;        ///< there were hidden ones
   std::uint32_t clipped = 0;  ///< clipped ones
 };
 
-/// Removes the pieces of an edge, which begin at `first`, that the options do not ask for. Decision
+/// Removes the pieces of an edge, which begin at `first`, that the options do not request. Decision
 /// 0125 says why clipped ones are counted.
 UnwantedPieces leave_out_unwanted(const Options& options, std::size_t first,
                                   std::vector<EdgePiece>& pieces);

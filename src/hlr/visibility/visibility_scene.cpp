@@ -71,7 +71,8 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
   const parallel::StageTimer timer(context.report, kLocalStep);
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
-  const std::size_t shapes = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
+  const std::size_t shapes =
+      visibility.perspective_map ? scene.bodies.size() : job.sectioned.all.size();
   parallel::Lowest body_of(shapes);
   const Status found = parallel::for_each(
       context,
@@ -206,15 +207,15 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
     const model::GridBody& body = scene.bodies[b];
     const std::uint32_t object = model::index(body.object);
     if (!job.drawn[object]) return;
-    const SectionedShape& seen = job.sectioned_shape_of(b);
-    const model::GridShape& shape = seen.shape();
+    const SectionedShape& sectioned = job.sectioned_shape_of(b);
+    const model::GridShape& shape = sectioned.shape();
     BodyInstance& placed = visibility.placed[b];
     placed = {visibility.shapes.find(visibility.shape_number(b)),
               job.offset(body),
               visibility.perspective_map ? ViewPoint{} : visibility.projection(job.offset(body)),
               object,
               job.contact[b],
-              seen.within,
+              sectioned.within,
               job.opaque[b],
               false,
               false,
@@ -222,7 +223,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
     if (job.limits && !shape.box.empty()) {
       Box3l box = body.box(shape);
       // Hatch lines lie on the plane itself, and rounded rims up to 1.5 units off it.
-      const std::int64_t beyond = seen.cut != nullptr ? 2 : 0;
+      const std::int64_t beyond = sectioned.cut != nullptr ? 2 : 0;
       const geometry::Vec3l more{beyond, beyond, beyond};
       box = {box.lo - job.origin - more, box.hi - job.origin + more};
       placed.cut = !within(box, *job.limits);
@@ -242,12 +243,12 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
 /// Marks whole bodies of one shape that hide and have the same contact distance between their
 /// parts.
 Status mark_shared_self_occlusion(VisibilityScene& visibility, const parallel::Context& context) {
-  const SectionedShapes& shapes = visibility.job.seen;
+  const SectionedShapes& shapes = visibility.job.sectioned;
   parallel::Lowest first(shapes.all.size());
   parallel::Marks shared(shapes.all.size());
   const auto may_share = [&](const BodyInstance& placed) {
     return placed.shape != nullptr && placed.opaque && !placed.cut &&
-           visibility.job.asks_for(placed.object);
+           visibility.job.solves(placed.object);
   };
   const parallel::Region bodies{.name = "hidden lines: bodies of a shape",
                                 .n = visibility.placed.size(),
@@ -308,7 +309,7 @@ Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Contex
 void append_items(const VisibilityScene& visibility, std::uint32_t object,
                   std::vector<EdgeRange>& items) {
   const std::vector<std::uint32_t>& first_body = visibility.job.scene->first_body;
-  if (!visibility.job.asks_for(object)) return;
+  if (!visibility.job.solves(object)) return;
   const std::size_t first_item = items.size();
   std::uint32_t number = 0;
   const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
@@ -422,7 +423,7 @@ EdgeQuery::EdgeQuery(const VisibilityScene& visibility, const Line& line)
       b(line.b - visibility.job.origin),
       va(visibility.perspective_map ? ViewPoint{} : visibility.projection(a)),
       vb(visibility.perspective_map ? ViewPoint{} : visibility.projection(b)) {
-  projecting = visibility.job.viewer.sees_as_point(a, b);
+  projecting = visibility.job.viewer.projects_to_point(a, b);
 }
 
 Vec3l EdgeQuery::at(const RationalParam& t, const Vec3l& origin) const {

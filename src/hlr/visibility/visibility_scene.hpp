@@ -86,7 +86,7 @@ struct VisibilityScene {
 
   /// Returns the number of a body's projected shape.
   [[nodiscard]] std::uint32_t shape_number(std::uint32_t body) const {
-    return perspective_map ? body : job.seen.of[body];
+    return perspective_map ? body : job.sectioned.of[body];
   }
 };
 

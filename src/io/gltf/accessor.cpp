@@ -173,8 +173,8 @@ void Buffers::unpack_view(std::size_t index, const PackedView& packed) {
     result = *fault;
     return;
   }
-  const std::uint64_t most = kRatio * (total_bytes_ - unpacked_bytes_) + kFree - unpacked_bytes_;
-  Unpacked unpacked = unpack(packed, std::get<BufferView>(view).bytes, most);
+  const std::uint64_t largest = kRatio * (total_bytes_ - unpacked_bytes_) + kFree - unpacked_bytes_;
+  Unpacked unpacked = unpack(packed, std::get<BufferView>(view).bytes, largest);
   if (!unpacked.fault.empty()) {
     result = GltfFault{pointer, std::move(unpacked.fault)};
     return;
@@ -373,9 +373,9 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
 
   if (!stated.view.exists()) {
-    // It is all zeros, of which a file may ask for any number: no more than its data could hold.
-    const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
-    if (accessor.count > most / size)
+    // It is all zeros, of which a file may request any number: no more than its data could hold.
+    const std::size_t largest = std::max<std::size_t>(buffers_->total_bytes(), 4096);
+    if (accessor.count > largest / size)
       return GltfFault{accessor.pointer,
                        fmt::format("asks for {} elements without any data", accessor.count)};
     accessor.stride = size;

@@ -44,14 +44,14 @@ bool any_weight(const JsonValue& weights) {
 
 /// Returns how far at most triangles are from the surfaces that they stand for, as extras state it.
 double stated_sag(const JsonValue& extras, double otherwise) {
-  constexpr double kMost = 1e12;
+  constexpr double kMax = 1e12;
   const std::optional<double> sag = extras["sag_mm"].number();
-  return sag && *sag >= 0 && *sag < kMost ? *sag : otherwise;
+  return sag && *sag >= 0 && *sag < kMax ? *sag : otherwise;
 }
 
 /// The fewest bytes of the file per node beyond a number of nodes that hurts nobody. A node takes
 /// half a kilobyte of memory, and {"mesh":1,"translation":[1,2,3]} is 36 bytes.
-constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
+constexpr std::size_t kMinNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
 
 class Importer {
  public:
@@ -111,7 +111,7 @@ class Importer {
 
 Status Importer::read_nodes() {
   const std::size_t count = document_.node_count();
-  if (count > input_.file.bytes.size() / kLeastNodeBytes + kFreeNodes)
+  if (count > input_.file.bytes.size() / kMinNodeBytes + kFreeNodes)
     return refusal("has more nodes than it has anything to say about them");
   std::vector<JsonValue> mesh_names;
   mesh_names.reserve(meshes_.size());
@@ -304,14 +304,15 @@ Status Importer::adopt_features() {
     shapes_[mesh].features = std::move(features.rows);
   }
   std::uint64_t copied = 0;
-  const std::uint64_t most = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
+  const std::uint64_t maximum =
+      16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
   for (const VisitedNode& visit : visits_) {
     if (!nodes_.has_mesh(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     if (*node.mesh >= meshes_.size()) continue;
     const std::uint64_t times = node.instancing().exists() ? stated_instances(node, accessors_) : 1;
     copied += times * bytes_of_mesh[*node.mesh];
-    if (copied > most)
+    if (copied > maximum)
       return refusal(
           "repeats the attributes of its meshes so often that they would not fit into the "
           "memory");

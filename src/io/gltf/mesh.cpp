@@ -52,11 +52,11 @@ using ColorTally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
 
 model::Color main_color(const ColorTally& tally) {
   model::Color color;
-  std::size_t most = 0;
+  std::size_t largest = 0;
   for (const auto& [key, count] : tally)
-    if (count > most) {
+    if (count > largest) {
       color = {key[0], key[1], key[2], key[3]};
-      most = count;
+      largest = count;
     }
   return color;
 }
@@ -282,15 +282,15 @@ LoadedMesh load_mesh(const MeshInput& input, const JsonValue& mesh, std::size_t 
 }
 
 std::uint64_t stated_corners(const Accessors& accessors, const JsonValue& mesh) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // sums of these must not wrap
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 60U;  // sums of these must not wrap
   std::uint64_t sum = 0;
   mesh["primitives"].elements([&](const JsonValue& json) {
     const JsonValue indices = json["indices"], position = json["attributes"]["POSITION"];
     const std::uint64_t vertices = position.index().value_or(UINT64_MAX);
     const std::uint64_t counted =
         indices.exists() ? indices.index().value_or(UINT64_MAX) : vertices;
-    sum = std::min(sum + accessors.stated_count(counted), kMost);
-    if (indices.exists()) sum = std::min(sum + accessors.copied_count(vertices), kMost);
+    sum = std::min(sum + accessors.stated_count(counted), kMax);
+    if (indices.exists()) sum = std::min(sum + accessors.copied_count(vertices), kMax);
   });
   return sum;
 }

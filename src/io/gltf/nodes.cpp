@@ -26,8 +26,8 @@ using geometry::Vec3d;
 
 /// The longest text of an attribute: extras may hold whole tables; what is longer or deeper than
 /// this is of no use.
-constexpr std::size_t kMostAttributeBytes = 4096;
-constexpr int kMostAttributeDepth = 4;
+constexpr std::size_t kMaxAttributeBytes = 4096;
+constexpr int kMaxAttributeDepth = 4;
 
 bool is_reserved(const JsonValue& key, bool neutral) {
   return key.is_text("id") || key.is_text("path") || key.is_text("instances") ||
@@ -45,18 +45,18 @@ struct AttributeCollector {
 void AttributeCollector::add(const JsonValue& extras, const std::string& prefix, int depth) const {
   extras.members([&](const JsonValue& key, const JsonValue& value) {
     if (depth == 0 && is_reserved(key, neutral)) return;
-    if (value.raw().size() > (kMostAttributeBytes << 4U)) return;
+    if (value.raw().size() > (kMaxAttributeBytes << 4U)) return;
     // The writer's own "attributes" are not a level of the user's.
     const bool own = depth == 0 && value.is_object() && key.is_text("attributes");
     std::string name = prefix;
     if (!own) key.append_text(name);
-    if (name.size() > kMostAttributeBytes) return;
+    if (name.size() > kMaxAttributeBytes) return;
     if (value.is_object()) {
       if (!own) name.push_back('.');
-      if (depth < kMostAttributeDepth) add(value, name, depth + 1);
+      if (depth < kMaxAttributeDepth) add(value, name, depth + 1);
       return;
     }
-    if (value.raw().size() > kMostAttributeBytes) return;
+    if (value.raw().size() > kMaxAttributeBytes) return;
     out.emplace_back(std::move(name),
                      value.is_string() ? value.text_value() : std::string(value.raw()));
   });
@@ -220,11 +220,11 @@ Status NodeTable::clear(const parallel::Context& context) {
 }
 
 std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors) {
-  std::uint64_t most = 0;
+  std::uint64_t maximum = 0;
   const JsonDocument instancing = node.instancing().parse();
   for (const JsonValue& attribute : instancing.root()["attributes"].items())
-    most = std::max(most, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
-  return most;
+    maximum = std::max(maximum, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
+  return maximum;
 }
 
 namespace {

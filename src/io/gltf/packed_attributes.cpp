@@ -18,8 +18,8 @@ constexpr std::size_t kChannelBytes = 4;     // bytes of an element that are pre
 
 /// Elements of a block: as many as 8192 bytes hold, in whole groups, and 256 at most.
 std::size_t block_elements(std::size_t stride) {
-  constexpr std::size_t kBytes = 8192, kMost = 256;
-  return std::min(kBytes / stride / kByteGroup * kByteGroup, kMost);
+  constexpr std::size_t kBytes = 8192, kMax = 256;
+  return std::min(kBytes / stride / kByteGroup * kByteGroup, kMax);
 }
 
 /// Takes bytes off the front; once there are too few, it is done for and gives zeros.
@@ -145,19 +145,19 @@ bool is_attributes_version_1(std::span<const std::byte> packed) {
 
 bool unpack_attributes_version_1(std::span<const std::byte> packed, std::size_t stride,
                                  std::span<std::byte> out) {
-  constexpr std::size_t kLeastTail = 24;
+  constexpr std::size_t kMinTail = 24;
   const std::size_t channels = stride / kChannelBytes, tail = stride + channels;
-  if (!is_attributes_version_1(packed) || packed.size() < 1 + std::max(tail, kLeastTail))
+  if (!is_attributes_version_1(packed) || packed.size() < 1 + std::max(tail, kMinTail))
     return false;
   // Behind the blocks, at the very end: the element before the first one, and kinds of channels.
   std::array<std::byte, kWidestElement> last{};
   std::memcpy(last.data(), packed.data() + packed.size() - tail, stride);
   const std::span<const std::byte> kinds = packed.last(channels);
-  PackedBytes source(packed.subspan(1, packed.size() - 1 - std::max(tail, kLeastTail)));
-  const std::size_t elements = out.size() / stride, most = block_elements(stride);
+  PackedBytes source(packed.subspan(1, packed.size() - 1 - std::max(tail, kMinTail)));
+  const std::size_t elements = out.size() / stride, largest = block_elements(stride);
   std::array<ByteLane, kChannelBytes> lanes{};
-  for (std::size_t first = 0; first < elements; first += most) {
-    const std::size_t count = std::min(most, elements - first);
+  for (std::size_t first = 0; first < elements; first += largest) {
+    const std::size_t count = std::min(largest, elements - first);
     const std::span<const std::byte> controls = source.take(channels);
     for (std::size_t c = 0; c < channels && !source.failed(); ++c) {
       const auto control = std::to_integer<unsigned>(controls[c]);

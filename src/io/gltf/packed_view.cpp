@@ -28,7 +28,7 @@ std::uint64_t largest_ratio(PackedMode mode, std::uint64_t stride, bool version_
   return mode == PackedMode::triangles ? 3 * stride : stride;
 }
 
-/// Whether the library may be asked for elements of this form; it takes for granted that it may.
+/// Whether the library may be called for elements of this form; it takes for granted that it may.
 bool is_sound(PackedMode mode, std::uint64_t stride, std::uint64_t count) {
   constexpr std::uint64_t kWidest = 256;
   if (mode == PackedMode::attributes) return stride > 0 && stride <= kWidest && stride % 4 == 0;
@@ -71,7 +71,7 @@ PackedView packed_view_of(const JsonValue& extensions) {
   return packed;
 }
 
-Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::uint64_t most) {
+Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::uint64_t limit) {
   const PackedMode mode = mode_of(view.mode);
   const std::uint64_t stride = view.stride.value_or(0), count = view.count.value_or(UINT64_MAX);
   if (!is_sound(mode, stride, count) || !is_sound_filter(view.filter, stride))
@@ -80,7 +80,7 @@ Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::
   constexpr std::uint64_t kFree = 8192;  // a block that is begun
   const bool version_1 = mode == PackedMode::attributes && is_attributes_version_1(packed);
   const std::uint64_t room =
-      std::min(largest_ratio(mode, stride, version_1) * packed.size() + kFree, most);
+      std::min(largest_ratio(mode, stride, version_1) * packed.size() + kFree, limit);
   if (count > room / stride)
     return {
         {},

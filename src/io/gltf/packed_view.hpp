@@ -29,9 +29,9 @@ struct Unpacked {
   std::string fault;
 };
 
-/// Unpacks the bytes of a view. What few bytes cannot hold is refused before memory is asked for;
-/// `most` bounds it as well.
+/// Unpacks the bytes of a view. What few bytes cannot hold is refused before memory is requested;
+/// `limit` bounds it as well.
 [[nodiscard]] Unpacked unpack(const PackedView& view, std::span<const std::byte> packed,
-                              std::uint64_t most);
+                              std::uint64_t limit);
 
 }  // namespace strake::io::gltf

@@ -77,9 +77,9 @@ double half_spacing_of(const Placement& local) {
 
 /// Returns a path that is not too long, else a hash of it and the end of its last name.
 std::string shortened(std::string path, std::string_view name) {
-  constexpr std::size_t kMost = 256;
-  if (path.size() <= kMost) return path;
-  if (name.size() > kMost / 2) name = name.substr(name.size() - kMost / 2);
+  constexpr std::size_t kMax = 256;
+  if (path.size() <= kMax) return path;
+  if (name.size() > kMax / 2) name = name.substr(name.size() - kMax / 2);
   return fmt::format("{}/{}", Hasher().add(std::string_view(path)).value().text(), name);
 }
 

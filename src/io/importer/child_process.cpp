@@ -142,13 +142,13 @@ class Child {
   KilledWith killed_with_;
 };
 
-constexpr std::size_t kMostOutput = std::size_t{1} << 20U;
+constexpr std::size_t kMaxOutput = std::size_t{1} << 20U;
 
 /// Returns the end of a file.
 std::string end_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in.tellg();
-  in.seekg(std::max<std::streamoff>(0, size - static_cast<std::streamoff>(kMostOutput)));
+  in.seekg(std::max<std::streamoff>(0, size - static_cast<std::streamoff>(kMaxOutput)));
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -156,30 +156,30 @@ std::string end_of(const std::filesystem::path& file) {
 class Log {
  public:
   explicit Log(const ChildProgram& program)
-      : file_(program.log), most_bytes_(program.most_log_bytes) {}
+      : file_(program.log), max_bytes_(program.max_log_bytes) {}
 
   void keep_short() {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(file_, failed);
-    if (failed || size <= most_bytes_) return;
+    if (failed || size <= max_bytes_) return;
     before_ = end_of(file_);
     std::filesystem::resize_file(file_, 0, failed);
   }
   [[nodiscard]] std::string end() const {
     const std::string text = before_ + end_of(file_);
-    return text.substr(text.size() - std::min(text.size(), kMostOutput));
+    return text.substr(text.size() - std::min(text.size(), kMaxOutput));
   }
 
  private:
   std::filesystem::path file_;
-  std::uintmax_t most_bytes_;
+  std::uintmax_t max_bytes_;
   std::string before_;
 };
 
 /// Waits until a child has ended or has to end before; returns why, if it has to.
 std::optional<ChildEnd::How> wait_for(const Child& child, const ChildProgram& program, Log& log,
                                       const std::stop_token& stop) {
-  constexpr auto kLook = std::chrono::milliseconds(5);
+  constexpr auto kPollInterval = std::chrono::milliseconds(5);
   // A program that was told to stop may end before this thread looks again.
   const std::stop_callback at_once(stop, [&] { child.kill(); });
   const auto begin = std::chrono::steady_clock::now();
@@ -189,7 +189,7 @@ std::optional<ChildEnd::How> wait_for(const Child& child, const ChildProgram& pr
     if (program.limit_s && age.count() >= *program.limit_s) return ChildEnd::How::over_limit;
     if (program.may_go_on && !program.may_go_on()) return ChildEnd::How::refused;
     log.keep_short();
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kPollInterval);
   }
   return std::nullopt;
 }

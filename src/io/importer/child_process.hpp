@@ -28,7 +28,7 @@ struct ChildProgram {
   std::filesystem::path log;       ///< takes all that it writes, and stays
   std::filesystem::path folder;    ///< its current folder; empty: ours
   /// A log that grows longer is begun anew: a program that repeats one warning may fill a disk.
-  std::uintmax_t most_log_bytes = std::numeric_limits<std::uintmax_t>::max();
+  std::uintmax_t max_log_bytes = std::numeric_limits<std::uintmax_t>::max();
   KilledWith killed_with = KilledWith::its_group;
   /// Asked every few milliseconds where there is one; the child is killed when it says no.
   std::function<bool()> may_go_on;

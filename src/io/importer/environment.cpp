@@ -63,13 +63,13 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
   };
   constexpr std::array<Unit, 5> kUnits{
       {{"", 1}, {"kb", 1e3}, {"mb", 1e6}, {"gb", 1e9}, {"tb", 1e12}}};
-  constexpr double kMost = 1e18;
+  constexpr double kMax = 1e18;
   const std::optional<Quantity> quantity = parse_quantity(text);
   if (!quantity) return std::nullopt;
   const auto* const unit = std::ranges::find(kUnits, lowered(quantity->unit), &Unit::name);
   if (unit == kUnits.end()) return std::nullopt;
   const double bytes = quantity->number * unit->bytes;
-  if (!(bytes >= 0 && bytes <= kMost)) return std::nullopt;
+  if (!(bytes >= 0 && bytes <= kMax)) return std::nullopt;
   return static_cast<std::uint64_t>(bytes);
 }
 

@@ -12,11 +12,11 @@ namespace {
 constexpr std::string_view kOdd = "import-report", kOther = "import-other";
 
 /// Returns a text as messages show it: one line of valid characters, cut where it is very long.
-std::string short_text(const gltf::JsonValue& value, std::size_t most) {
+std::string short_text(const gltf::JsonValue& value, std::size_t limit) {
   if (!value.is_string()) return {};
   std::string text = printable(value.text_value());
-  if (text.size() <= most) return text;
-  std::size_t kept = most;
+  if (text.size() <= limit) return text;
+  std::size_t kept = limit;
   while (kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xC0U) == 0x80U) --kept;
   return text.substr(0, kept) + "...";
 }
@@ -81,8 +81,7 @@ void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view
   std::string code = line["code"].text_value();
   const auto& counts = facts_.diagnostics.counts();
   const auto before = std::ranges::find(counts, code, &Diagnostics::Count::code);
-  const bool fits =
-      before == counts.end() ? counts.size() < kMostCodes : before->severity == *known;
+  const bool fits = before == counts.end() ? counts.size() < kMaxCodes : before->severity == *known;
   // All of one code count with the severity of the first.
   if (!is_code(code) || !fits)
     code = std::string(kOther) + '-' + std::string(severity_name(*known));
@@ -100,7 +99,7 @@ void ImportReport::take_end(const gltf::JsonValue& line) {
   if (line["map"].exists() && !facts_.map) note_odd();
   facts_.depends_on.clear();
   line["depends_on"].elements([&](const gltf::JsonValue& file) {
-    if (file.is_string() && facts_.depends_on.size() < kMostDepends)
+    if (file.is_string() && facts_.depends_on.size() < kMaxDepends)
       facts_.depends_on.push_back(file.text_value());
   });
 }

@@ -33,7 +33,7 @@ struct ImportFault {
 class ImportReport {
  public:
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
-  static constexpr std::size_t kMostCodes = 500, kMostDepends = 20000;
+  static constexpr std::size_t kMaxCodes = 500, kMaxDepends = 20000;
 
   void feed(std::string_view bytes);
   /// Takes the last line, whether or not an end of line is behind it.

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 /// What no importer has a reason to exceed: a GLB counts its bytes in 32 bits, and a report has a
 /// line for an object at most.
-constexpr std::uintmax_t kMostScene = std::uintmax_t{1} << 32U, kMostReport = 512U << 20U;
-constexpr std::uintmax_t kMostLog = 16U << 20U;
+constexpr std::uintmax_t kMaxScene = std::uintmax_t{1} << 32U, kMaxReport = 512U << 20U;
+constexpr std::uintmax_t kMaxLog = 16U << 20U;
 
 /// Returns a path that says the same in another folder.
 fs::path anywhere(const fs::path& path) {
@@ -60,7 +60,7 @@ class GrowingFile {
     const std::uintmax_t before = bytes_;
     std::array<char, std::size_t{1} << 16U> piece{};
     // What is there is read even while more comes, up to a limit that the caller looks at.
-    while (bytes_ - before < kMostAtOnce) {
+    while (bytes_ - before < kMaxAtOnce) {
       const ssize_t got = ::read(descriptor_, piece.data(), piece.size());
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) break;
@@ -72,7 +72,7 @@ class GrowingFile {
   [[nodiscard]] std::uintmax_t bytes() const { return bytes_; }
 
  private:
-  static constexpr std::uintmax_t kMostAtOnce = 4U << 20U;
+  static constexpr std::uintmax_t kMaxAtOnce = 4U << 20U;
 
   fs::path file_;
   int descriptor_ = -1;
@@ -105,7 +105,7 @@ class ImportRun {
     child.log = folder_ / "log";
     // What a stranger put beside the model is not found by a program that looks around it.
     child.folder = folder_;
-    child.most_log_bytes = kMostLog;
+    child.max_log_bytes = kMaxLog;
     child.may_go_on = [this] { return may_go_on(); };
     last_progress_ = std::chrono::steady_clock::now();
     const ChildEnd end = run_child(child, options_.stop);
@@ -116,7 +116,7 @@ class ImportRun {
   }
 
  private:
-  [[nodiscard]] bool is_report_too_long() const { return file_.bytes() > kMostReport; }
+  [[nodiscard]] bool is_report_too_long() const { return file_.bytes() > kMaxReport; }
 
   bool read_report() {
     const bool more = file_.read_more([&](std::string_view text) { report_.feed(text); });
@@ -131,7 +131,7 @@ class ImportRun {
     const std::uintmax_t scene_bytes = size_of(scene_);
     if (read_report() || scene_bytes != scene_bytes_) last_progress_ = now;
     scene_bytes_ = scene_bytes;
-    is_too_long_ = scene_bytes > kMostScene || is_report_too_long();
+    is_too_long_ = scene_bytes > kMaxScene || is_report_too_long();
     return !is_too_long_ && now - last_progress_ < std::chrono::duration<double>(task_.silence_s);
   }
 
@@ -153,10 +153,10 @@ class ImportRun {
 /// Returns the error of an importer, with what it printed last.
 Error ImportRun::ended(std::string how, const ChildEnd& end, std::string mend) const {
   constexpr std::size_t kTail = 400;
-  std::string said;
-  for (const char c : tail_of(end.output, kTail)) said += c == '\n' || c == '\t' ? ' ' : c;
+  std::string output;
+  for (const char c : tail_of(end.output, kTail)) output += c == '\n' || c == '\t' ? ' ' : c;
   std::string message = name_ + ' ' + std::move(how);
-  if (!said.empty()) message += "; it printed last: " + printable(said);
+  if (!output.empty()) message += "; it printed last: " + printable(output);
   return {ErrorCode::input, std::move(message), task_.file.string(), std::move(mend)};
 }
 

@@ -102,12 +102,12 @@ bool is_of_suffix(const ImporterProgram& program) {
   return program.file.filename().string().ends_with("-" + program.suffix);
 }
 
-/// Adds to an error of the program that is asked for all suffixes what was looked for before it.
-Error told_what_was_tried(Error error, const ImporterProgram& program) {
+/// Adds to an error of the program that is called for all suffixes what was looked for before it.
+Error with_tried_importers(Error error, const ImporterProgram& program) {
   if (error.code != ErrorCode::input || is_of_suffix(program)) return error;
-  const std::string asked = program.file.filename().string();
+  const std::string called = program.file.filename().string();
   if (!error.mend.empty()) error.mend += "; ";
-  error.mend += "Strake itself does not read such files, " + asked + "-" + program.suffix +
+  error.mend += "Strake itself does not read such files, " + called + "-" + program.suffix +
                 " is in none of the folders that are searched, and " + program.file.string() +
                 " was asked";
   return error;
@@ -149,7 +149,7 @@ Result<ImportedModel> ImportingReader::read_with(const FileBytes& file, const Re
     return Error{ErrorCode::input, "its importer is gone", file.path.string(), "install it again"};
   if (!scenes.contains(job->key)) scenes.merge(maker_.make_all({&*job, 1}, context));
   Result<ImportedScene>& scene = scenes.at(job->key);
-  if (!scene) return told_what_was_tried(scene.error(), job->program);
+  if (!scene) return with_tried_importers(scene.error(), job->program);
   std::optional<Result<ImportedModel>> model = read_scene({file, options, context}, *job, *scene);
   if (model) return std::move(*model);
   // What was kept is damaged, or another run has removed it meanwhile.
@@ -157,7 +157,7 @@ Result<ImportedModel> ImportingReader::read_with(const FileBytes& file, const Re
   scenes.erase(job->key);
   scenes.merge(maker_.make_all({&*job, 1}, context));
   Result<ImportedScene>& made = scenes.at(job->key);
-  if (!made) return told_what_was_tried(made.error(), job->program);
+  if (!made) return with_tried_importers(made.error(), job->program);
   model = read_scene({file, options, context}, *job, *made);
   if (model) return std::move(*model);
   return Error{ErrorCode::input, "the scene of its importer is lost again and again",

@@ -61,36 +61,40 @@ bool are_same(const MapPlace& x, const MapPlace& y) {
 
 }  // namespace
 
-Diagnostics tell_of_places(const std::vector<FilePlace>& files, bool on_map) {
-  Diagnostics told;
+Diagnostics place_diagnostics(const std::vector<FilePlace>& files, bool on_map) {
+  Diagnostics diagnostics;
   const auto first =
       std::ranges::find_if(files, [](const FilePlace& f) { return f.place.has_value(); });
   if (first == files.end()) {
     if (on_map)
       for (const FilePlace& file : files)
-        told.add(Severity::warning, "map-place-unknown",
-                 "it says nothing of its place on a map: its coordinates stay its own", file.file);
-    return told;
+        diagnostics.add(Severity::warning, "map-place-unknown",
+                        "it says nothing of its place on a map: its coordinates stay its own",
+                        file.file);
+    return diagnostics;
   }
   for (const FilePlace& file : files) {
     if (!file.place) {
       if (on_map)
-        told.add(Severity::warning, "map-place-unknown",
-                 "it says nothing of its place on a map: its coordinates stay its own", file.file);
+        diagnostics.add(Severity::warning, "map-place-unknown",
+                        "it says nothing of its place on a map: its coordinates stay its own",
+                        file.file);
     } else if (file.place->crs != first->place->crs) {
       if (on_map)
-        told.add(Severity::warning, "map-other",
-                 "it lies on the map " + in_quotes(file.place->crs) + ", and " + first->file +
-                     " on " + in_quotes(first->place->crs) + ": they do not meet",
-                 file.file);
+        diagnostics.add(Severity::warning, "map-other",
+                        "it lies on the map " + in_quotes(file.place->crs) + ", and " +
+                            first->file + " on " + in_quotes(first->place->crs) +
+                            ": they do not meet",
+                        file.file);
     } else if (!on_map && !are_same(*file.place, *first->place)) {
-      told.add(Severity::note, "map-place-differs",
-               "it lies on the map " + in_quotes(file.place->crs) + " otherwise than " +
-                   first->file + ": in coordinates of their own they do not meet as they do there",
-               file.file);
+      diagnostics.add(Severity::note, "map-place-differs",
+                      "it lies on the map " + in_quotes(file.place->crs) + " otherwise than " +
+                          first->file +
+                          ": in coordinates of their own they do not meet as they do there",
+                      file.file);
     }
   }
-  return told;
+  return diagnostics;
 }
 
 }  // namespace strake::io

@@ -40,6 +40,6 @@ struct FilePlace {
 /// Tells of files that do not meet although they should, or that meet only by chance: in
 /// coordinates of their own, those of one map that lie there differently; on the map, those of
 /// different maps, and those that say nothing of one.
-[[nodiscard]] Diagnostics tell_of_places(const std::vector<FilePlace>& files, bool on_map);
+[[nodiscard]] Diagnostics place_diagnostics(const std::vector<FilePlace>& files, bool on_map);
 
 }  // namespace strake::io

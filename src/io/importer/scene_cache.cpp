@@ -111,7 +111,7 @@ std::optional<std::string> SceneCache::keep(const Hash128& key, const fs::path& 
                                             const EntryFacts& facts) const {
   const std::string trailer = entry_trailer(bytes, facts);
   const std::uint64_t size = bytes.size() + trailer.size();
-  if (size > most_bytes_) return "the scene is larger than all of them may be";
+  if (size > max_bytes_) return "the scene is larger than all of them may be";
   if (const int fault = append_to(scene, trailer); fault != 0) return words_of(fault);
   make_room(size);
   if (::rename(scene.c_str(), file_of(key).c_str()) != 0) return words_of(errno);
@@ -127,7 +127,7 @@ void SceneCache::make_room(std::uint64_t bytes) const {
   std::uint64_t all = bytes;
   for (const Found& file : files) all += file.bytes;
   for (const Found& file : files) {
-    if (all <= most_bytes_) return;
+    if (all <= max_bytes_) return;
     if (file.work || ::unlink(file.path.c_str()) != 0) continue;
     all -= file.bytes;
   }

@@ -20,8 +20,8 @@ namespace strake::io {
 
 class SceneCache {
  public:
-  SceneCache(std::filesystem::path folder, std::uint64_t most_bytes)
-      : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+  SceneCache(std::filesystem::path folder, std::uint64_t max_bytes)
+      : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
   /// Makes the folder; returns why it cannot be used, nothing where it can.
   [[nodiscard]] std::optional<std::string> open() const;
@@ -42,7 +42,7 @@ class SceneCache {
   void make_room(std::uint64_t bytes) const;
 
   std::filesystem::path folder_;
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
 };
 
 /// An entry as lists show it.

@@ -22,7 +22,7 @@ constexpr std::string_view kMagic = "STRKSCN1";
 /// The magic, two lengths and a hash of two words, the low byte of each first.
 constexpr std::size_t kWord = 8, kFoot = 5 * kWord;
 /// Facts are far shorter: messages of a code are kept up to a number, and codes are few.
-constexpr std::uint64_t kMostFacts = std::uint64_t{1} << 28U;
+constexpr std::uint64_t kMaxFacts = std::uint64_t{1} << 28U;
 
 void append_word(std::string& out, std::uint64_t word) {
   for (std::size_t byte = 0; byte < kWord; ++byte, word >>= 8U)
@@ -47,7 +47,7 @@ std::optional<Foot> read_foot(std::string_view foot, std::uint64_t entry_bytes) 
   const Foot read{word_at(foot, kWord),
                   word_at(foot, 2 * kWord),
                   {word_at(foot, 3 * kWord), word_at(foot, 4 * kWord)}};
-  if (read.facts > kMostFacts || read.facts > entry_bytes - kFoot ||
+  if (read.facts > kMaxFacts || read.facts > entry_bytes - kFoot ||
       read.scene != entry_bytes - kFoot - read.facts)
     return std::nullopt;
   return read;

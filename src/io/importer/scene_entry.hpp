@@ -14,7 +14,7 @@
 
 namespace strake::io {
 
-/// A file as it was, so that another can be told from it without being read.
+/// A file as it was, so that another can be distinguished from it without being read.
 struct FileStamp {
   std::string path;
   std::int64_t size = -1;  ///< in bytes; below zero: there is none

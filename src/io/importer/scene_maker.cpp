@@ -133,7 +133,7 @@ Result<ImportedScene> SceneMaker::make(const SceneJob& job, const ImportRunOptio
 
 namespace {
 
-/// What is told of files that are imported at the same time.
+/// What is reported of files that are imported at the same time.
 std::string phase_of(std::span<const SceneJob* const> jobs) {
   return jobs.size() == 1 ? "import " + jobs.front()->file.filename().string()
                           : "import " + std::to_string(jobs.size()) + " files";
@@ -163,10 +163,10 @@ ImportedScenes SceneMaker::make_all(std::span<const SceneJob> jobs,
   const Status done = parallel::for_each(
       context, {.name = "import files", .n = to_make.size()}, [&](std::size_t i) {
         if (given_up[i].stop_requested()) return;
-        std::uint64_t told = 0;
+        std::uint64_t reported = 0;
         const auto progress = [&](double part) {
           const auto parts = static_cast<std::uint64_t>(part * kParts);
-          shown.add(parts - std::exchange(told, parts));
+          shown.add(parts - std::exchange(reported, parts));
         };
         Result<ImportedScene>& scene = scenes.at(to_make[i]->key);
         scene = make(*to_make[i], {threads, progress, context.stop, given_up[i].get_token()});

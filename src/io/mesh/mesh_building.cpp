@@ -29,9 +29,9 @@ std::vector<std::uint32_t> compact_by_table(std::vector<std::uint32_t>& indices,
 
 std::vector<std::uint32_t> renumber_indices(std::vector<std::uint32_t>& indices) {
   if (indices.empty()) return {};
-  const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
+  const auto [least, largest] = std::minmax_element(indices.begin(), indices.end());
   const std::uint32_t low = *least;
-  const std::size_t range = std::size_t{*most} - low + 1;
+  const std::size_t range = std::size_t{*largest} - low + 1;
   if (range / 4 <= indices.size()) return compact_by_table(indices, low, range);
   std::vector<std::uint32_t> used = indices;
   std::sort(used.begin(), used.end());

@@ -152,14 +152,14 @@ model::Color ObjectBuilder::color(std::uint32_t material) const {
 }
 
 model::Color ObjectBuilder::main_color(const FlatFaces& flat) const {
-  std::uint32_t most = kNoMaterial;
+  std::uint32_t largest = kNoMaterial;
   std::size_t rows = 0;
   for (const auto& [material, count] : flat.rows_by_material)
     if (count > rows) {
-      most = material;
+      largest = material;
       rows = count;
     }
-  return color(most);
+  return color(largest);
 }
 
 void ObjectBuilder::damaged(const GeometryRun& segment, std::uint32_t line, std::string message) {

@@ -137,7 +137,7 @@ Result<Header> HeaderParser::parse() {
 
 }  // namespace
 
-std::uint64_t ElementHead::least_bytes(Encoding encoding) const {
+std::uint64_t ElementHead::min_bytes(Encoding encoding) const {
   if (encoding == Encoding::text) return 2 * properties.size();
   std::uint64_t bytes = 0;
   for (const PropertyHead& property : properties)

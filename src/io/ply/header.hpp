@@ -35,7 +35,7 @@ struct ElementHead {
 
   /// Returns the fewest bytes of one: lists may be empty; in text a number takes a digit and what
   /// separates it from the next.
-  [[nodiscard]] std::uint64_t least_bytes(Encoding encoding) const;
+  [[nodiscard]] std::uint64_t min_bytes(Encoding encoding) const;
 };
 
 struct Header {

@@ -94,7 +94,7 @@ Status PlyParser::each(const ElementHead& head, const PropertyHead* list, Visit&
     for (const PropertyHead& property : head.properties) {
       double number = 0;
       if (!property.count_type) {
-        // How coordinates are written is told apart from all else.
+        // How coordinates are written is distinguished from all else.
         const bool coordinate =
             property.name == "x" || property.name == "y" || property.name == "z";
         if (!values_.read(property.type, number, coordinate ? content_.digits : ignored_))
@@ -181,7 +181,7 @@ Status PlyParser::edges(const ElementHead& head) {
 }
 
 Status PlyParser::element(const ElementHead& head, model::Model& model) {
-  const std::uint64_t least = head.least_bytes(header_.encoding);
+  const std::uint64_t least = head.min_bytes(header_.encoding);
   // The last number of a text needs nothing behind it.
   if (head.count > 0 && least > 0 && head.count > (values_.left() + 1) / least)
     return ends_early(head, (values_.left() + 1) / least);
@@ -237,7 +237,7 @@ double PlyObject::half_spacing_mm() const {
   const bool floats = content_.coordinate_type == NumberType::f64 &&
                       std::ranges::any_of(content_.points, came_through_float32);
   if (floats) half = float32_half_spacing(largest);
-  const bool text = content_.digits.most_significant_digits > 0;
+  const bool text = content_.digits.max_significant_digits > 0;
   return frame_.unit_mm * (text ? text_half_spacing(content_.digits, largest) : half);
 }
 

@@ -66,8 +66,8 @@ class AttributeParser {
     if (line == tokens_.end) {
       if (!open_.empty()) open_.pop_back();
     } else if (const auto name = started(line)) {
-      const bool header = file_.nodes.empty() && !header_seen_ && *name == "Header Information";
-      header_seen_ = true;
+      const bool header = file_.nodes.empty() && !has_header_ && *name == "Header Information";
+      has_header_ = true;
       const std::uint32_t parent = open_.empty() ? kNoGroup : open_.back();
       if (header) {
         open_.push_back(kNoGroup);
@@ -114,7 +114,7 @@ class AttributeParser {
   Tokens tokens_;
   AttributeFile file_;
   std::vector<std::uint32_t> open_;
-  bool header_seen_ = false;
+  bool has_header_ = false;
 };
 
 /// Indexes children of one parent by name; a name that occurs twice among them is ambiguous.

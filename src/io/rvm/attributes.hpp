@@ -33,8 +33,8 @@ struct AttributeFile {
 /// `key := value` lines, with the four tokens that its first line declares.
 ///
 /// Indentation has no meaning. A missing END counts as closed by the next NEW only at the end of
-/// the file, since a missing END cannot be told from nesting. It is an error when the first line is
-/// not that of an attribute file.
+/// the file, since a missing END cannot be distinguished from nesting. It is an error when the
+/// first line is not that of an attribute file.
 [[nodiscard]] Result<AttributeFile> parse_attributes(std::string_view text);
 
 /// Returns the attribute file beside a model: same name, ending .att or .txt in any case, .att

@@ -147,7 +147,7 @@ FileRead BinaryReader::read(const parallel::Context& context) {
   return {.ends_early = !ended_};
 }
 
-/// Marks the group in which the file ends as incomplete; what else is missing cannot be told.
+/// Marks the group in which the file ends as incomplete; what else is missing cannot be known.
 void BinaryReader::note_truncation() {
   if (builder_->depth() > 0) builder_->note_loss(at_);
   log_->skip("rvm-truncated",
@@ -210,8 +210,8 @@ void BinaryReader::skip_unknown(std::optional<std::size_t> next) {
     resynchronise(at_);
     return;
   }
-  constexpr std::size_t kMostIds = 64;
-  if (unknown_ids_.size() < kMostIds && unknown_ids_.insert(id).second)
+  constexpr std::size_t kMaxIds = 64;
+  if (unknown_ids_.size() < kMaxIds && unknown_ids_.insert(id).second)
     log_->skip("rvm-unknown-chunk", fmt::format("chunks \"{}\" are not known", letters(id)), at_);
   builder_->note_loss(at_);
   at_ = *next;

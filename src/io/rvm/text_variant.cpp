@@ -238,7 +238,7 @@ bool Transcoder::transcode_chunk(std::string_view id) {
 
 /// Whether a line looks like the id of a chunk that is not known: the reader of chunks reports it,
 /// its numbers are stray lines.
-bool looks_like_id(std::string_view line) {
+bool is_like_id(std::string_view line) {
   return line.size() == 4 &&
          std::all_of(line.begin(), line.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
 }
@@ -250,7 +250,7 @@ Transcoded Transcoder::run() {
     const std::string_view line = trimmed(in_.next_line(), kLineBlanks);
     if (line.empty()) continue;
     if (std::find(kIds.begin(), kIds.end(), line) == kIds.end()) {
-      if (looks_like_id(line)) {
+      if (is_like_id(line)) {
         begin(line);
         end();
       } else if (strays++ == 0) {

@@ -17,9 +17,9 @@
 namespace strake::io {
 
 float precision_um(double half_spacing_mm) {
-  constexpr double kUmPerMm = 1000, kMostUm = geometry::kMaxGridMm * kUmPerMm;
+  constexpr double kUmPerMm = 1000, kMaxUm = geometry::kMaxGridMm * kUmPerMm;
   const double um = half_spacing_mm * kUmPerMm;
-  return static_cast<float>(um <= kMostUm ? um : kMostUm);
+  return static_cast<float>(um <= kMaxUm ? um : kMaxUm);
 }
 
 double largest_coordinate(std::span<const geometry::Vec3d> points) {

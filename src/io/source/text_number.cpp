@@ -71,11 +71,11 @@ Scan scan_decimal(const char* at, const char* end) {
 constexpr std::array<double, 23> kPowers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr std::int64_t kMostPower = kPowers.size() - 1;
+constexpr std::int64_t kMaxPower = kPowers.size() - 1;
 
 double power_of_ten(std::int64_t n) {
   const std::int64_t size = n < 0 ? -n : n;
-  if (size > kMostPower) return std::pow(10.0, static_cast<double>(n));
+  if (size > kMaxPower) return std::pow(10.0, static_cast<double>(n));
   const double power = kPowers[static_cast<std::size_t>(size)];
   return n < 0 ? 1 / power : power;
 }
@@ -84,7 +84,7 @@ double power_of_ten(std::int64_t n) {
 bool simple_value(const Scan& scan, double& value) {
   const std::int64_t power = scan.exponent - scan.decimals;
   if (scan.significant > kMantissaDigits || scan.mantissa > (std::uint64_t{1} << 53)) return false;
-  if (power < -kMostPower || power > kMostPower) return false;
+  if (power < -kMaxPower || power > kMaxPower) return false;
   const auto mantissa = static_cast<double>(scan.mantissa);
   value = power < 0 ? mantissa / kPowers[static_cast<std::size_t>(-power)]
                     : mantissa * kPowers[static_cast<std::size_t>(power)];
@@ -131,8 +131,8 @@ bool read_special(const char*& at, const char* end, double& value) {
 }  // namespace
 
 void DigitStatistics::merge(const DigitStatistics& other) {
-  most_significant_digits = std::max(most_significant_digits, other.most_significant_digits);
-  most_decimals = std::max(most_decimals, other.most_decimals);
+  max_significant_digits = std::max(max_significant_digits, other.max_significant_digits);
+  max_decimals = std::max(max_decimals, other.max_decimals);
   shows_float32 = shows_float32 || other.shows_float32;
   beyond_float32 = beyond_float32 || other.beyond_float32;
 }
@@ -150,10 +150,10 @@ bool read_number(const char*& at, const char* end, double& value, DigitStatistic
     const auto capped = [](std::int64_t n) {
       return static_cast<std::int16_t>(std::clamp<std::int64_t>(n, 0, 1000));
     };
-    digits.most_significant_digits =
-        std::max(digits.most_significant_digits, capped(scan.significant));
+    digits.max_significant_digits =
+        std::max(digits.max_significant_digits, capped(scan.significant));
     if (scan.significant != 0)
-      digits.most_decimals = std::max(digits.most_decimals, capped(scan.decimals - scan.exponent));
+      digits.max_decimals = std::max(digits.max_decimals, capped(scan.decimals - scan.exponent));
     compare_with_float32(scan, value, digits);
     at = scan.end;
   }
@@ -163,15 +163,15 @@ bool read_number(const char*& at, const char* end, double& value, DigitStatistic
 
 double text_half_spacing(const DigitStatistics& digits, double magnitude) {
   constexpr int kDesignDigits = 5;
-  if (digits.most_significant_digits <= kDesignDigits) return float32_half_spacing(magnitude);
+  if (digits.max_significant_digits <= kDesignDigits) return float32_half_spacing(magnitude);
   // Fixed notation writes the same decimals everywhere; shortest and %g notation the same number
   // of significant digits: the fewer decimals of the two hold at the largest coordinate.
   int whole_digits = 0;
   for (double size = magnitude; size >= 1 && whole_digits < 400; size /= 10) ++whole_digits;
-  if (digits.most_decimals == 0 && digits.most_significant_digits >= whole_digits)
+  if (digits.max_decimals == 0 && digits.max_significant_digits >= whole_digits)
     return float32_half_spacing(magnitude);
   const int decimals =
-      std::min<int>(digits.most_decimals, digits.most_significant_digits - whole_digits);
+      std::min<int>(digits.max_decimals, digits.max_significant_digits - whole_digits);
   double spacing = 1;
   for (int i = 0; i < decimals; ++i) spacing /= 10;
   for (int i = 0; i > decimals; --i) spacing *= 10;

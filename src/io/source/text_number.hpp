@@ -9,8 +9,8 @@ namespace strake::io {
 /// How finely a text writes the numbers of an object, from which their precision follows. It is
 /// small, because each vertex of a pool that many objects share has its own.
 struct DigitStatistics {
-  std::int16_t most_significant_digits = 0;  ///< as written, from the first digit that is not zero
-  std::int16_t most_decimals = 0;            ///< digits after the point, exponent applied
+  std::int16_t max_significant_digits = 0;  ///< as written, from the first digit that is not zero
+  std::int16_t max_decimals = 0;            ///< digits after the point, exponent applied
   bool shows_float32 = false;  ///< some number is a float32 value, with more digits than that needs
   bool beyond_float32 = false;  ///< some number is no float32 value, as far as its digits go
 
@@ -32,8 +32,8 @@ struct DigitStatistics {
 
 /// Whether a number may be a coordinate: it is finite, with room for any unit to scale it.
 [[nodiscard]] constexpr bool is_coordinate(double value) {
-  constexpr double kMost = 1e200;
-  return value >= -kMost && value <= kMost;
+  constexpr double kMax = 1e200;
+  return value >= -kMax && value <= kMax;
 }
 
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }

@@ -71,12 +71,12 @@ std::string up_axis_text(UpAxis axis) {
 
 double float32_half_spacing(double magnitude) {
   constexpr int kDigits = std::numeric_limits<float>::digits;
-  constexpr int kLeast = std::numeric_limits<float>::min_exponent - kDigits;  // of subnormals
+  constexpr int kMin = std::numeric_limits<float>::min_exponent - kDigits;  // of subnormals
   const double size = std::fabs(magnitude);
   if (!std::isfinite(size)) return 0;
-  int exponent = kLeast;
+  int exponent = kMin;
   if (size > 0) std::frexp(size, &exponent);
-  return std::ldexp(0.5, std::max(exponent - kDigits, kLeast));
+  return std::ldexp(0.5, std::max(exponent - kDigits, kMin));
 }
 
 }  // namespace strake::io

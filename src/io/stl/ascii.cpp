@@ -131,7 +131,7 @@ std::vector<Solid> AsciiParser::take() {
 
 }  // namespace
 
-bool looks_like_ascii(std::string_view text) {
+bool is_like_ascii(std::string_view text) {
   std::string_view start = text.substr(0, 1024);
   if (start.find('\0') != std::string_view::npos) return false;
   const std::size_t begin = start.find_first_not_of(" \t\r\n");
@@ -142,10 +142,10 @@ bool looks_like_ascii(std::string_view text) {
 }
 
 std::optional<std::vector<Solid>> parse_ascii(std::string_view text, const std::stop_token& stop) {
-  constexpr std::uint64_t kLinesBetweenLooks = 4096;
+  constexpr std::uint64_t kStopInterval = 4096;
   AsciiParser parser;
   for (std::uint64_t count = 0; !text.empty(); ++count) {
-    if (count % kLinesBetweenLooks == 0 && stop.stop_requested()) return std::nullopt;
+    if (count % kStopInterval == 0 && stop.stop_requested()) return std::nullopt;
     const std::size_t length = std::min(text.find('\n'), text.size());
     parser.line(text.substr(0, length));
     if (length == text.size()) parser.cut_line(text);

@@ -25,12 +25,12 @@ struct Solid {
   DigitStatistics digits;           ///< the digits of its corners
   std::optional<StlDamage> damage;  ///< the first damage; its facet is left out
   std::uint64_t bad_facets = 0;     ///< facets that are left out
-  /// The line on which it stops without its endsolid: what else it held cannot be told.
+  /// The line on which it stops without its endsolid: what else it held cannot be known.
   std::optional<std::uint64_t> cut_off;
 };
 
 /// Whether the text starts with "solid" and goes on with facets or ends.
-[[nodiscard]] bool looks_like_ascii(std::string_view text);
+[[nodiscard]] bool is_like_ascii(std::string_view text);
 
 /// Parses the text; returns nothing when stopped.
 [[nodiscard]] std::optional<std::vector<Solid>> parse_ascii(std::string_view text,

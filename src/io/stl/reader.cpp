@@ -38,7 +38,7 @@ enum class StlKind { none, binary, binary_longer, binary_truncated, ascii };
 /// Returns the kind of a file; binary files are known by their size, because many begin with
 /// "solid" like the text variant.
 StlKind kind_of(std::span<const std::byte> bytes) {
-  const bool text = stl::looks_like_ascii(without_byte_order_mark(as_text(bytes)));
+  const bool text = stl::is_like_ascii(without_byte_order_mark(as_text(bytes)));
   if (bytes.size() < kHeaderBytes) return text ? StlKind::ascii : StlKind::none;
   const std::uint64_t facets = stated_facets(bytes);
   const std::uint64_t expected = kHeaderBytes + kFacetBytes * facets;
@@ -103,8 +103,8 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
   model::Model model = start_model(file, "STL binary", options, kStlFrame);
   const SourceFrame frame = choose_frame(options, kStlFrame);
   const std::uint64_t facets = stated_facets(file.bytes);
-  constexpr std::uint64_t kMostFacets = 0xffffffffU / 3;
-  if (facets > kMostFacets)
+  constexpr std::uint64_t kMaxFacets = 0xffffffffU / 3;
+  if (facets > kMaxFacets)
     return Error{ErrorCode::input, "has more than 1 431 655 765 facets", file.path.string(),
                  "split the file"};
   geometry::TriangleMesh mesh;

@@ -26,7 +26,7 @@ constexpr std::size_t kFewestCorners = 6;
 /// How far a corner may lie off its circle, how long a side may be and how long all of them are at
 /// least, as parts of the radius: the sides of a hexagon are as long as that. A long narrow facet
 /// with corners along its sides lies on a circle as well, but not round it.
-constexpr double kOffCircle = 0.01, kLongestSide = 1.1, kLeastWayRound = 5.8;
+constexpr double kOffCircle = 0.01, kLongestSide = 1.1, kMinWayRound = 5.8;
 /// Two triangles whose planes differ by less than a degree may be one face: the snap turns narrow
 /// ones. Whether the face is plane is decided by all of it.
 constexpr double kCosOfOneDegree = 0.9998476951563913;
@@ -169,7 +169,7 @@ class MeshEnds {
           side > kLongestSide * circle.radius + off_)
         return std::nullopt;
     }
-    if (way_round < kLeastWayRound * circle.radius) return std::nullopt;
+    if (way_round < kMinWayRound * circle.radius) return std::nullopt;
     return circle;
   }
 

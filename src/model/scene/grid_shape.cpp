@@ -34,14 +34,14 @@ void add_lines(const geometry::Polylines& lines, const Mat3d& linear, GridShapeR
 /// Returns the farthest that the snap moves a vertex, grid units: by so much the body on the grid
 /// may lie from the one that its primitive states.
 double moved_by_snap(const geometry::TriangleMesh& mesh) {
-  double most = 0;
+  double largest = 0;
   for (const geometry::Vec3d& v : mesh.vertices) {
     const auto at = geometry::snap(v);
     if (!at) continue;
     const geometry::Vec3d off = v * geometry::kGridPerMm - at->as<double>();
-    most = std::max(most, geometry::dot(off, off));
+    largest = std::max(largest, geometry::dot(off, off));
   }
-  return std::sqrt(most);
+  return std::sqrt(largest);
 }
 
 /// Removes the folds of a solid: where a primitive is thinner than the grid, the snap lays its two

@@ -30,14 +30,14 @@ namespace {
 
 using geometry::Mat3d;
 
-constexpr double kMostWeldMm = 1000;
+constexpr double kMaxWeldMm = 1000;
 
-/// Returns which seams of a body are closed: those that its numbers cannot tell apart, before wider
-/// ones that are asked for.
+/// Returns which seams of a body are closed: those that its numbers cannot distinguish, before
+/// wider ones that are requested.
 geometry::Seams seams_of(const Model& model, const Body& body, const SceneOptions& options) {
   if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return {};
   const auto on_grid = [](double units) {
-    return static_cast<std::int64_t>(std::min(units, kMostWeldMm * geometry::kGridPerMm));
+    return static_cast<std::int64_t>(std::min(units, kMaxWeldMm * geometry::kGridPerMm));
   };
   const std::int64_t own = on_grid(std::ceil(contact_distance(body.precision_um)));
   const std::int64_t within =
@@ -455,7 +455,7 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
                          const parallel::Context& context) {
   if (!(options.sag_mm > 0) || !std::isfinite(options.sag_mm))
     return Error{ErrorCode::usage, "the sag must be a positive length", "", "give one like 0.5mm"};
-  if (!(options.weld_mm <= kMostWeldMm))
+  if (!(options.weld_mm <= kMaxWeldMm))
     return Error{ErrorCode::usage, "the weld distance must be a length up to a metre", "",
                  "leave it out to have it derived from the sources"};
   SceneAssembly assembly{model, options, {}};

@@ -95,7 +95,7 @@ struct Candidate {
   bool surely = false;
 };
 
-std::optional<Candidate> candidate_of(const Scene& scene, std::uint32_t b, double most_mm) {
+std::optional<Candidate> candidate_of(const Scene& scene, std::uint32_t b, double max_mm) {
   const Body& body = scene.model->bodies[scene.bodies[b].body];
   const auto* const primitive =
       std::get_if<geometry::Primitive>(&scene.model->shapes[index(body.shape)]);
@@ -105,7 +105,7 @@ std::optional<Candidate> candidate_of(const Scene& scene, std::uint32_t b, doubl
   const double scale = geometry::largest_scale(body.placement.linear);
   // A placement is exact but for rounding, and so is what a pipe of just that diameter measures.
   constexpr double kRounding = 1 + 1e-6;
-  if (!(2 * scale * std::max(piece->first_radius, piece->last_radius) <= most_mm * kRounding))
+  if (!(2 * scale * std::max(piece->first_radius, piece->last_radius) <= max_mm * kRounding))
     return std::nullopt;
   return Candidate{b,
                    {PipeEnd{body.placement * piece->axis.front(), piece->first_radius * scale},

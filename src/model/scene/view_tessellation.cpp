@@ -41,45 +41,47 @@ constexpr std::size_t kBodiesPerRun = 4096;
 /// Returns by shape whether it is to be finer than in the scene: so is that of a body which may be
 /// seen.
 Result<std::vector<bool>> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
-                                       const ViewTessellationOptions& seen_by,
+                                       const ViewTessellationOptions& tessellation_options,
                                        const parallel::Context& context) {
   std::vector<bool> finer;
-  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return finer;
+  if (!(tessellation_options.sag_mm > 0 && tessellation_options.sag_mm < scene.sag_mm))
+    return finer;
   std::vector<bool> curved(scene.shapes.size());
   for (std::uint32_t s = 0; s < curved.size(); ++s) {
     const geometry::Primitive* const primitive = primitive_of(scene, s);
     curved[s] = primitive != nullptr && geometry::is_curved(*primitive);
   }
-  parallel::Marks seen(scene.shapes.size());
-  const Status looked = parallel::for_each(
+  parallel::Marks result(scene.shapes.size());
+  const Status status = parallel::for_each(
       context, {.name = "shapes that are seen", .n = scene.bodies.size(), .grain = kBodiesPerRun},
       [&](std::size_t b) {
         const GridBody& body = scene.bodies[b];
-        if (!curved[body.grid_shape] || seen.is_set(body.grid_shape) ||
+        if (!curved[body.grid_shape] || result.is_set(body.grid_shape) ||
             (!drawn.empty() && !drawn[index(body.object)]))
           return;
         const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
-        if (!box.empty() && (!seen_by.shows || seen_by.shows(box))) seen.set(body.grid_shape);
+        if (!box.empty() && (!tessellation_options.shows || tessellation_options.shows(box)))
+          result.set(body.grid_shape);
       });
-  if (!looked) return looked.error();
+  if (!status) return status.error();
   finer.resize(scene.shapes.size());
-  for (std::size_t s = 0; s < finer.size(); ++s) finer[s] = seen.is_set(s);
+  for (std::size_t s = 0; s < finer.size(); ++s) finer[s] = result.is_set(s);
   return finer;
 }
 
 /// Returns whether a body gets a shape of its own, as an eye sees its contours.
-bool is_seen_from_eye(const Scene& scene, const GridBody& body,
-                      const ViewTessellationOptions& seen_by) {
-  if (!seen_by.eye) return false;
+bool is_in_view_of_eye(const Scene& scene, const GridBody& body,
+                       const ViewTessellationOptions& tessellation_options) {
+  if (!tessellation_options.eye) return false;
   const geometry::Primitive* const primitive = primitive_of(scene, body.grid_shape);
   if (primitive == nullptr || !geometry::is_round(*primitive)) return false;
   const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
-  return !box.empty() && (!seen_by.shows || seen_by.shows(box));
+  return !box.empty() && (!tessellation_options.shows || tessellation_options.shows(box));
 }
 
 /// Equal shapes at one place, as of objects that are in a model twice, stay one.
 Result<ShapesOfView> shapes_of_view(const Scene& scene, const std::vector<bool>& drawn,
-                                    const ViewTessellationOptions& seen_by,
+                                    const ViewTessellationOptions& tessellation_options,
                                     const parallel::Context& context) {
   ShapesOfView shapes;
   auto of = parallel::unset_slots<std::uint32_t>(scene.bodies.size());
@@ -92,7 +94,7 @@ Result<ShapesOfView> shapes_of_view(const Scene& scene, const std::vector<bool>&
         const GridBody& body = scene.bodies[b];
         shapes.of[b] = body.grid_shape;
         if (!drawn.empty() && !drawn[index(body.object)]) return;
-        if (is_seen_from_eye(scene, body, seen_by))
+        if (is_in_view_of_eye(scene, body, tessellation_options))
           out.push_back(static_cast<std::uint32_t>(b));
         else
           shared.offer(body.grid_shape, b);
@@ -123,11 +125,11 @@ Result<ShapesOfView> shapes_of_view(const Scene& scene, const std::vector<bool>&
 }
 
 /// Returns whether a shape is made anew where it is drawn.
-bool changes(const Scene& scene, std::uint32_t shape, const ViewTessellationOptions& seen_by,
-             const ViewTessellation& plan) {
+bool changes(const Scene& scene, std::uint32_t shape,
+             const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan) {
   if (plan.is_finer(shape)) return true;
   const geometry::Primitive* const primitive = primitive_of(scene, shape);
-  return seen_by.towards && primitive != nullptr && geometry::is_round(*primitive);
+  return tessellation_options.towards && primitive != nullptr && geometry::is_round(*primitive);
 }
 
 /// Makes a shape anew, or keeps it as it was where the new one does not fit the grid.
@@ -143,11 +145,11 @@ GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3
 }  // namespace
 
 Result<ViewTessellation> plan_view_tessellation(const Scene& scene, const std::vector<bool>& drawn,
-                                                const ViewTessellationOptions& seen_by,
+                                                const ViewTessellationOptions& tessellation_options,
                                                 const parallel::Context& context) {
   ViewTessellation plan;
   if (scene.model == nullptr || !(scene.sag_mm > 0)) return plan;
-  auto finer = finer_shapes(scene, drawn, seen_by, context);
+  auto finer = finer_shapes(scene, drawn, tessellation_options, context);
   if (!finer) return finer.error();
   plan.finer = std::move(*finer);
   const auto changed = parallel::find_first(
@@ -155,28 +157,30 @@ Result<ViewTessellation> plan_view_tessellation(const Scene& scene, const std::v
       [&](std::size_t b) {
         const GridBody& body = scene.bodies[b];
         return (drawn.empty() || drawn[index(body.object)]) &&
-               (changes(scene, body.grid_shape, seen_by, plan) ||
-                is_seen_from_eye(scene, body, seen_by));
+               (changes(scene, body.grid_shape, tessellation_options, plan) ||
+                is_in_view_of_eye(scene, body, tessellation_options));
       });
   if (!changed) return changed.error();
   plan.any = changed->has_value();
   return plan;
 }
 
-Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
-                                                 const ViewTessellationOptions& seen_by,
-                                                 const parallel::Context& context) {
-  const Result<ViewTessellation> plan = plan_view_tessellation(scene, drawn, seen_by, context);
+Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context) {
+  const Result<ViewTessellation> plan =
+      plan_view_tessellation(scene, drawn, tessellation_options, context);
   if (!plan) return plan.error();
-  return tessellate_for_view(scene, drawn, seen_by, *plan, context);
+  return tessellate_for_view(scene, drawn, tessellation_options, *plan, context);
 }
 
-Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
-                                                 const ViewTessellationOptions& seen_by,
-                                                 const ViewTessellation& plan,
-                                                 const parallel::Context& context) {
+Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan,
+    const parallel::Context& context) {
   if (!plan.any) return std::optional<Scene>();
-  const Result<ShapesOfView> shapes_of = shapes_of_view(scene, drawn, seen_by, context);
+  const Result<ShapesOfView> shapes_of =
+      shapes_of_view(scene, drawn, tessellation_options, context);
   if (!shapes_of) return shapes_of.error();
   const ShapesOfView& view = *shapes_of;
   // Only shares the work out: between 4 and 64 no difference can be seen (decision 0073).
@@ -194,24 +198,27 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
         }
         const GridBody& body = scene.bodies[view.first[i]];
         const std::uint32_t s = body.grid_shape;
-        if (!own && !changes(scene, s, seen_by, plan)) return scene.shapes[s];
-        GridShapeOptions wanted{.sag_mm = plan.is_finer(s) ? seen_by.sag_mm : scene.sag_mm};
+        if (!own && !changes(scene, s, tessellation_options, plan)) return scene.shapes[s];
+        GridShapeOptions wanted{.sag_mm =
+                                    plan.is_finer(s) ? tessellation_options.sag_mm : scene.sag_mm};
         if (own)
-          wanted.eye = geometry::to_mm(*seen_by.eye - (body.origin - scene.shapes[s].base));
-        else if (seen_by.towards)
-          wanted.towards = seen_by.towards->as<double>();
+          wanted.eye =
+              geometry::to_mm(*tessellation_options.eye - (body.origin - scene.shapes[s].base));
+        else if (tessellation_options.towards)
+          wanted.towards = tessellation_options.towards->as<double>();
         return made_for(scene, s, scene.model->bodies[body.body].placement.linear, wanted, builder);
       });
   if (!shapes) return shapes.error();
-  Scene seen;
-  seen.model = scene.model;
-  seen.first_body = scene.first_body;
-  seen.left_out = scene.left_out;
-  seen.diagnostics = scene.diagnostics;
-  seen.lacking = scene.lacking;
-  seen.sag_mm = scene.sag_mm;
-  if (seen_by.sag_mm > 0) seen.sag_mm = std::min(seen.sag_mm, seen_by.sag_mm);
-  seen.weld_mm = scene.weld_mm;
+  Scene result;
+  result.model = scene.model;
+  result.first_body = scene.first_body;
+  result.left_out = scene.left_out;
+  result.diagnostics = scene.diagnostics;
+  result.lacking = scene.lacking;
+  result.sag_mm = scene.sag_mm;
+  if (tessellation_options.sag_mm > 0)
+    result.sag_mm = std::min(result.sag_mm, tessellation_options.sag_mm);
+  result.weld_mm = scene.weld_mm;
   auto bodies = parallel::transform(
       context, {.name = "bodies of the view", .n = scene.bodies.size(), .grain = kBodiesPerRun},
       [&](std::size_t b) {
@@ -221,9 +228,9 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
         return body;
       });
   if (!bodies) return bodies.error();
-  seen.bodies = std::move(*bodies);
-  seen.shapes = std::move(*shapes);
-  return std::optional<Scene>(std::move(seen));
+  result.bodies = std::move(*bodies);
+  result.shapes = std::move(*shapes);
+  return std::optional<Scene>(std::move(result));
 }
 
 }  // namespace strake::model

@@ -32,7 +32,7 @@ struct ViewTessellationOptions {
 
 /// What a view tessellates anew of a scene.
 struct ViewTessellation {
-  /// By shape: as fine as the view asks for, since a body of it may be seen. Empty: none.
+  /// By shape: as fine as the view requests, since a body of it may be seen. Empty: none.
   std::vector<bool> finer;
   bool any = false;  ///< something changes: the view has meshes of its own
 
@@ -42,25 +42,26 @@ struct ViewTessellation {
 /// Returns what tessellate_for_view() makes anew. `shows` is called by all workers. Errors:
 /// cancelled, out of memory.
 [[nodiscard]] Result<ViewTessellation> plan_view_tessellation(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
-    const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context);
 
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
 /// once per shape and rotation as in `scene`; for an eye once per shape and place, of bodies that
 /// may be seen, behind the shapes of `scene`. All else stays, with bodies in their order. `drawn`
-/// says which objects are asked for (empty: all); shapes that none of them uses are left empty. It
+/// says which objects are requested (empty: all); shapes that none of them uses are left empty. It
 /// returns nothing where nothing changes: where no object that is drawn has a curved primitive that
 /// is not fine enough or a round one with contours, or the scene was not made by make_scene().
 ///
 /// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
-    const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context);
 
 /// Does the same as a plan says, which may be that of more than is drawn here: what is finer then
 /// is not asked of `shows`.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
-    const ViewTessellation& plan, const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan,
+    const parallel::Context& context);
 
 }  // namespace strake::model

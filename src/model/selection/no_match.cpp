@@ -38,19 +38,19 @@ void add_attributes(const selection::SelectionQuery& query, std::set<std::string
 
 /// The names that most state, first of all; at most a dozen, and how many more there are.
 std::string listed(const Statements& count) {
-  constexpr std::size_t kMostListed = 12;
+  constexpr std::size_t kMaxListed = 12;
   std::vector<std::pair<std::size_t, std::string_view>> names;
   for (const auto& [name, times] : count) names.emplace_back(times, name);
   std::stable_sort(names.begin(), names.end(),
                    [](const auto& x, const auto& y) { return x.first > y.first; });
   std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMostListed; ++i) {
+  for (std::size_t i = 0; i < names.size() && i < kMaxListed; ++i) {
     if (i > 0) list += ", ";
     list += '@';
     list += printable(names[i].second);
   }
-  if (names.size() > kMostListed)
-    list += " and " + std::to_string(names.size() - kMostListed) + " more";
+  if (names.size() > kMaxListed)
+    list += " and " + std::to_string(names.size() - kMaxListed) + " more";
   return list;
 }
 

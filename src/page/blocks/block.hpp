@@ -11,7 +11,7 @@
 
 namespace strake::page {
 
-/// Bytes that are made when they are written, a row at a time: several workers ask for rows at
+/// Bytes that are made when they are written, a row at a time: several workers request rows at
 /// once.
 struct RowSource {
   std::size_t rows = 0;

@@ -70,10 +70,10 @@ Vec3d origin_of(SceneBoxes& boxes) {
 }
 
 BoxLattice lattice_of(const Box3l& box, const Vec3d& origin_mm) {
-  constexpr double kMostSteps = 65530;  // some are left over for rounding
+  constexpr double kMaxSteps = 65530;  // some are left over for rounding
   const Vec3d size = geometry::to_mm(box.hi) - geometry::to_mm(box.lo);
   return {geometry::to_mm(box.lo) - origin_mm,
-          std::max({size.x, size.y, size.z, 1e-3}) / kMostSteps};
+          std::max({size.x, size.y, size.z, 1e-3}) / kMaxSteps};
 }
 
 void append_list_of(std::string& out, const Vec3d& mm) {

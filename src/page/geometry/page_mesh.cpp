@@ -15,8 +15,8 @@ namespace {
 
 using geometry::Vec3d;
 
-constexpr double kMostSteps = 65535;
-constexpr std::size_t kMostVertices = 65535;
+constexpr double kMaxSteps = 65535;
+constexpr std::size_t kMaxVertices = 65535;
 
 /// Triangles with vertices of their own, put on a lattice.
 PageMesh quantised(const std::vector<Vec3d>& vertices, std::vector<std::uint16_t> index) {
@@ -27,7 +27,7 @@ PageMesh quantised(const std::vector<Vec3d>& vertices, std::vector<std::uint16_t
   const Vec3d size = box.hi - box.lo;
   mesh.min = {static_cast<float>(box.lo.x), static_cast<float>(box.lo.y),
               static_cast<float>(box.lo.z)};
-  const double step = std::max({size.x, size.y, size.z, 1e-6}) / kMostSteps;
+  const double step = std::max({size.x, size.y, size.z, 1e-6}) / kMaxSteps;
   // Rounded up, so that the farthest corner has a number.
   mesh.step = std::nextafter(static_cast<float>(step), HUGE_VALF);
   mesh.position.reserve(vertices.size() * 3);
@@ -35,7 +35,7 @@ PageMesh quantised(const std::vector<Vec3d>& vertices, std::vector<std::uint16_t
     for (int k = 0; k < 3; ++k)
       mesh.position.push_back(static_cast<std::uint16_t>(std::clamp(
           std::round((v[k] - double{mesh.min[static_cast<std::size_t>(k)]}) / double{mesh.step}),
-          0.0, kMostSteps)));
+          0.0, kMaxSteps)));
   return mesh;
 }
 
@@ -45,7 +45,7 @@ class MeshCutter {
   /// `vertex(i)` is in millimetres.
   template <class Vertex>
   void add(const geometry::Triangle& triangle, const Vertex& vertex) {
-    if (vertices_.size() + 3 > kMostVertices) flush();
+    if (vertices_.size() + 3 > kMaxVertices) flush();
     for (const std::uint32_t v : triangle) {
       const auto [at, is_new] = numbers_.try_emplace(v, vertices_.size());
       if (is_new) vertices_.push_back(vertex(v));
@@ -86,7 +86,7 @@ geometry::Mat3d scaled(double x, double y, double z) {
 /// The largest distance of a circle from so many chords.
 double sag_of(double radius, double of_radius) {
   const int corners = circle_corners(of_radius);
-  // A little more, so that no rounding asks for another corner.
+  // A little more, so that no rounding requests another corner.
   return geometry::sagitta(radius, 2 * geometry::kPi / corners) * 1.001;
 }
 

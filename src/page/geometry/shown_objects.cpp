@@ -13,7 +13,7 @@
 namespace strake::page {
 namespace {
 
-/// How many shapes a page may have that nobody asked for: it is to open in some seconds.
+/// How many shapes a page may have that nobody requested: it is to open in some seconds.
 struct ShapeBudget {
   std::uint64_t shape_bytes = 24'000'000;  ///< before they are compressed
   std::uint64_t instances = 250'000;

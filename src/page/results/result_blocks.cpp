@@ -27,11 +27,11 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr std::uint8_t kNoDecision = 255, kNoClass = 255;
 
 /// How a result states where it is measured.
-enum class Witness : std::uint8_t { points, way_out, none };
+enum class Witness : std::uint8_t { points, exit_direction, none };
 
 Witness witness_of(const Pair& pair) {
   if (pair.d_mm >= 0) return Witness::points;
-  return pair.away == geometry::Vec3d{} ? Witness::none : Witness::way_out;
+  return pair.away == geometry::Vec3d{} ? Witness::none : Witness::exit_direction;
 }
 
 /// The first point of a witness, and the second one or the direction.
@@ -39,7 +39,7 @@ std::array<geometry::Vec3d, 2> witness_vectors(const Pair& pair) {
   switch (witness_of(pair)) {
     case Witness::points:
       return {pair.on_a_mm, pair.on_b_mm};
-    case Witness::way_out:
+    case Witness::exit_direction:
       return {pair.surface_mm(), pair.away};
     case Witness::none:
       break;
@@ -47,7 +47,7 @@ std::array<geometry::Vec3d, 2> witness_vectors(const Pair& pair) {
   return {};
 }
 
-/// Adds the columns of one kind of row, of which `at(row)` has what a column asks for.
+/// Adds the columns of one kind of row, of which `at(row)` has what a column requests.
 template <class At>
 class ColumnsOf {
  public:
@@ -114,7 +114,7 @@ class ResultColumns {
   }
 
  private:
-  /// Returns what columns ask for a row; it refers to the source, not to this.
+  /// Returns the values of columns for a row; it refers to the source, not to this.
   [[nodiscard]] auto found() const {
     return [rows = &source_.rows, findings = &findings_](std::size_t number) {
       const PageRow row = rows->at(number);
@@ -123,13 +123,13 @@ class ResultColumns {
     };
   }
   [[nodiscard]] auto of_results() { return ColumnsOf(columns_, rows_, found()); }
-  template <class Asks>
-  [[nodiscard]] bool any_test(Asks asks) const {
-    return std::ranges::any_of(findings_.tests, asks);
+  template <class Predicate>
+  [[nodiscard]] bool any_test(Predicate predicate) const {
+    return std::ranges::any_of(findings_.tests, predicate);
   }
-  template <class Asks>
-  [[nodiscard]] bool any_pair(Asks asks) const {
-    return any_test([&](const Report& test) { return std::ranges::any_of(test.pairs, asks); });
+  template <class Predicate>
+  [[nodiscard]] bool any_pair(Predicate predicate) const {
+    return any_test([&](const Report& test) { return std::ranges::any_of(test.pairs, predicate); });
   }
 
   void add_sides() {
@@ -198,9 +198,9 @@ class ResultColumns {
         const std::optional<double> mm = clash::required_clearance_mm(f.test, f.pair);
         return mm ? report::millionths(*mm) : std::int64_t{-1};
       });
-    if (any_test([](const Report& test) { return test.options.engine.most_regions > 0; }))
+    if (any_test([](const Report& test) { return test.options.engine.max_regions > 0; }))
       columns.template numbers<std::uint32_t>("region_count", [](const TestedResult& f) {
-        if (f.test.options.engine.most_regions == 0) return std::uint32_t{0};
+        if (f.test.options.engine.max_regions == 0) return std::uint32_t{0};
         return f.pair.regions == 0 ? kNone : f.pair.regions;
       });
     if (any_pair([](const Pair& p) { return p.allowed_regions > 0; }))
@@ -219,7 +219,7 @@ class ResultColumns {
 
   void add_levels() {
     auto columns = of_results();
-    // 0 is for tests that tell no levels apart.
+    // 0 is for tests that distinguish no levels.
     const auto number = [](const Report& test, clash::Level level) {
       return test.levels ? static_cast<std::uint8_t>(static_cast<unsigned>(level) + 1U)
                          : std::uint8_t{0};
@@ -248,9 +248,9 @@ class ResultColumns {
   }
 
   void add_volumes() {
-    constexpr double kMostMm3 = 9e12;  // beyond it a double has no millionths
+    constexpr double kMaxMm3 = 9e12;  // beyond it a double has no millionths
     auto columns = of_results();
-    if (any_pair([](const Pair& p) { return p.volume_mm3.value_or(0) > kMostMm3; })) {
+    if (any_pair([](const Pair& p) { return p.volume_mm3.value_or(0) > kMaxMm3; })) {
       columns.template numbers<double>("volume_mm3", [](const TestedResult& f) {
         if (!has_volume(f)) return std::numeric_limits<double>::quiet_NaN();
         return f.pair.volume_mm3 ? static_cast<double>(report::millionths(*f.pair.volume_mm3)) / 1e6
@@ -291,14 +291,14 @@ class ResultColumns {
       columns_.numbers<std::uint32_t>(name, rows_,
                                       [numbers](std::size_t row) { return (*numbers)[row]; });
     };
-    const auto add_said = [&](std::string_view name, std::string report::Decision::* member) {
+    const auto add_texts = [&](std::string_view name, std::string report::Decision::* member) {
       add(name, [&decided, member](std::size_t row) -> std::string_view {
         return decided[row] == nullptr ? std::string_view() : decided[row]->decision->*member;
       });
     };
-    add_said("decided_by", &report::Decision::by);
-    add_said("decided_on", &report::Decision::date);
-    add_said("comment", &report::Decision::comment);
+    add_texts("decided_by", &report::Decision::by);
+    add_texts("decided_on", &report::Decision::date);
+    add_texts("comment", &report::Decision::comment);
     if (source_.assignee)
       add("assignee", [this](std::size_t row) { return source_.assignee(source_.rows.at(row)); });
     columns_.texts(

@@ -17,13 +17,13 @@ constexpr Colour kInk{0x22, 0x22, 0x22};
 constexpr double kTextMm = 2.2, kMargin = 2.5;
 
 /// Returns at most so many characters of a text: where it is longer, its beginning and its end.
-std::string shortened(std::string_view text, std::size_t most) {
+std::string shortened(std::string_view text, std::size_t limit) {
   std::vector<std::string_view> characters;
   for (std::string_view rest = text; !rest.empty();)
     characters.push_back(take_character(rest).bytes);
-  if (characters.size() <= most) return std::string(text);
+  if (characters.size() <= limit) return std::string(text);
   constexpr std::string_view kGap = "...";
-  const std::size_t kept = most - std::min(most, kGap.size()), front = (kept + 1) / 2;
+  const std::size_t kept = limit - std::min(limit, kGap.size()), front = (kept + 1) / 2;
   std::string out;
   for (std::size_t i = 0; i < front; ++i) out += characters[i];
   out += kGap;

@@ -141,8 +141,8 @@ class ClashDrawer {
     options.clipped = false;
     options.hatch_spacing_mm = 0;
     options.flush_seams = false;
-    constexpr double kSagOnPaper = 0.04, kLeastSag = 0.001;
-    options.sag_mm = std::max(kLeastSag, kSagOnPaper * picture_.mm_per_mm);
+    constexpr double kSagOnPaper = 0.04, kMinSag = 0.001;
+    options.sag_mm = std::max(kMinSag, kSagOnPaper * picture_.mm_per_mm);
     const Result<hlr::Drawing> drawn = hlr::draw(small.scene, {}, view(limits), options, context);
     if (!drawn) return drawn.error();
     std::vector<std::vector<PictureLine>> strokes(kStrokes);
@@ -231,8 +231,8 @@ double view_aspect(const PictureOptions& options) {
 Result<ClashPicture> draw_clash(const Scenery& scenery, const Subject& subject,
                                 const ClashViewpoint& viewpoint, const PictureOptions& options,
                                 const parallel::Context& context) {
-  constexpr double kLeast = 40, kMost = 1000;
-  const auto fits = [](double mm) { return mm >= kLeast && mm <= kMost; };
+  constexpr double kMin = 40, kMax = 1000;
+  const auto fits = [](double mm) { return mm >= kMin && mm <= kMax; };
   if (!fits(options.width_mm) || !fits(options.height_mm))
     return Error{ErrorCode::usage, "a picture is not between 40 mm and a metre wide and high",
                  "picture", "160 by 120 mm is the usual size"};

@@ -53,14 +53,14 @@ Colour colour_of(const NearTriangle& triangle, bool back, const Vec3d& lamp) {
 class Shader {
  public:
   Shader(const Window& window, const NearTriangles& triangles)
-      : window_(window), seen_(seen_triangles(window, triangles)) {
+      : window_(window), projected_(project_triangles(window, triangles)) {
     const Vec3d lamp = unit(window.axes.toward + window.axes.up * 0.55 - window.axes.right * 0.35);
-    colours_.reserve(seen_.size());
-    for (const SeenTriangle& seen : seen_)
-      colours_.push_back(colour_of(triangles[seen.number], seen.back, lamp));
+    colours_.reserve(projected_.size());
+    for (const ProjectedTriangle& projected : projected_)
+      colours_.push_back(colour_of(triangles[projected.number], projected.back, lamp));
     in_band_.resize((window.rows + kBand - 1) / kBand);
-    for (std::uint32_t i = 0; i < seen_.size(); ++i)
-      for (std::uint32_t b = seen_[i].first / kBand; b * kBand < seen_[i].end; ++b)
+    for (std::uint32_t i = 0; i < projected_.size(); ++i)
+      for (std::uint32_t b = projected_[i].first / kBand; b * kBand < projected_[i].end; ++b)
         in_band_[b].push_back(i);
   }
 
@@ -70,7 +70,7 @@ class Shader {
     for (std::uint32_t b = 0; b < in_band_.size(); ++b) {
       const std::uint32_t first = b * kBand, end = std::min(first + kBand, window_.rows);
       ItemBuffer buffer(window_, first, end);
-      buffer.add(seen_, in_band_[b]);
+      buffer.add(projected_, in_band_[b]);
       for (std::uint32_t row = first; row + 1 < end; row += kFiner)
         for (std::uint32_t column = 0; column < window_.columns; column += kFiner)
           shade.points.push_back(mean_at(buffer, column, row));
@@ -100,7 +100,7 @@ class Shader {
   }
 
   const Window& window_;
-  std::vector<SeenTriangle> seen_;
+  std::vector<ProjectedTriangle> projected_;
   std::vector<Colour> colours_;
   std::vector<std::vector<std::uint32_t>> in_band_;  ///< numbers of the triangles of each band
 };

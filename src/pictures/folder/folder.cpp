@@ -211,7 +211,7 @@ Result<FolderCount> write_picture_folder(const report::ClashContents& contents,
   if (!scenery) return scenery.error();
   const std::vector<NamedSubject> shown = shown_subjects(contents);
   FolderCount count;
-  count.drawn = std::min(shown.size(), options.most);
+  count.drawn = std::min(shown.size(), options.max_pictures);
   count.left_out = shown.size() - count.drawn;
   Result<NewFolder> made = NewFolder::beside(folder);
   if (!made) return made.error();

@@ -19,7 +19,7 @@ struct NamedSubject {
 
 /// Returns the groups of the contents, or their results where there are no groups: the worst first,
 /// by class, then d, then key. Results that a rule allows or a decision settles are left out, and
-/// contacts but where they are all that is asked for.
+/// contacts but where they are all that is requested.
 [[nodiscard]] std::vector<NamedSubject> shown_subjects(const report::ClashContents& contents);
 
 }  // namespace strake::pictures

@@ -236,8 +236,8 @@ class Raster {
 
 Result<std::string> png_of(const ClashPicture& picture, std::uint32_t width_px,
                            std::uint32_t height_px) {
-  constexpr std::uint32_t kLeast = 16, kMost = 8192;
-  if (std::min(width_px, height_px) < kLeast || std::max(width_px, height_px) > kMost)
+  constexpr std::uint32_t kMin = 16, kMax = 8192;
+  if (std::min(width_px, height_px) < kMin || std::max(width_px, height_px) > kMax)
     return Error{ErrorCode::usage, "a PNG is not between 16 and 8192 points wide and high",
                  "picture", "1600 by 1200 is enough to print it"};
   try {

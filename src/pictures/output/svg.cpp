@@ -87,14 +87,14 @@ class SvgWriter {
       return a.width_mm == b.width_mm && a.colour == b.colour && a.dashed == b.dashed;
     };
     for (std::size_t first = 0, end = 0; first < lines.size(); first = end) {
-      const PictureLine& look = lines[first];
+      const PictureLine& style = lines[first];
       out_ += "<path fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke=\"" +
-              hex(look.colour) + '"';
-      attribute("stroke-width", look.width_mm);
-      if (look.dashed) out_ += " stroke-dasharray=\"1.4 1\"";
+              hex(style.colour) + '"';
+      attribute("stroke-width", style.width_mm);
+      if (style.dashed) out_ += " stroke-dasharray=\"1.4 1\"";
       out_ += " d=\"";
       std::string at;
-      for (; end < lines.size() && alike(look, lines[end]); ++end) {
+      for (; end < lines.size() && alike(style, lines[end]); ++end) {
         const std::string from = number(lines[end].a.x) + ' ' + number(lines[end].a.y);
         const std::string to = number(lines[end].b.x) + ' ' + number(lines[end].b.y);
         if (from != at) out_ += 'M' + from;

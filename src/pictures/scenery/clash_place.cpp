@@ -87,14 +87,14 @@ Role Roles::of(ObjectId id) const {
 }
 
 double reach_of(const Scenery& scenery, const Roles& roles, const Pair& pair) {
-  constexpr double kLeastMm = 120, kMostMm = 3000, kThicknesses = 2.2, kSlackMm = 5;
+  constexpr double kMinMm = 120, kMaxMm = 3000, kThicknesses = 2.2, kSlackMm = 5;
   const double apart = std::fabs(pair.d_mm);
   const auto size = [&](Role role) {
     return size_near(scenery.scene(), roles.first(role), pair.point_mm, apart + kSlackMm);
   };
   const double thin = std::min(size(Role::a), size(Role::b));
-  const double reach = thin == std::numeric_limits<double>::max() ? kMostMm : thin * kThicknesses;
-  return std::clamp(std::max(reach, 1.5 * apart), kLeastMm, kMostMm);
+  const double reach = thin == std::numeric_limits<double>::max() ? kMaxMm : thin * kThicknesses;
+  return std::clamp(std::max(reach, 1.5 * apart), kMinMm, kMaxMm);
 }
 
 }  // namespace strake::pictures

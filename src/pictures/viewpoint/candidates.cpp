@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "pictures/viewpoint/sight_buffer.hpp"
+#include "pictures/viewpoint/visibility_buffer.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::pictures {
@@ -42,11 +42,11 @@ Window window_of(const Vec3d& viewer, const Sight& sight) {
 }
 
 /// Returns how well the two are seen in what a window shows.
-double visibility(const SeenShares& seen) {
-  if (seen.a == 0 || seen.b == 0) return 0;
+double visibility(const VisibleShares& projected) {
+  if (projected.a == 0 || projected.b == 0) return 0;
   constexpr double kWithoutPoint = 0.2;
-  return 2 * seen.a * seen.b / (seen.a + seen.b) *
-         (kWithoutPoint + (1 - kWithoutPoint) * seen.at_point);
+  return 2 * projected.a * projected.b / (projected.a + projected.b) *
+         (kWithoutPoint + (1 - kWithoutPoint) * projected.at_point);
 }
 
 ViewCandidate candidate_of(const Vec3d& viewer, double share) {
@@ -55,7 +55,7 @@ ViewCandidate candidate_of(const Vec3d& viewer, double share) {
 
 /// A direction and what it shows of the two where nothing else stands before them.
 struct ScoreBound {
-  SightBuffer sight;
+  VisibilityBuffer sight;
   ViewCandidate alone;
 };
 
@@ -83,7 +83,7 @@ std::vector<Vec3d> candidate_directions(const Vec3d& away) {
 
 double visible_share(const NearTriangles& triangles, const Vec3d& viewer, const Sight& sight) {
   const Window window = window_of(viewer, sight);
-  SightBuffer buffer(window, triangles);
+  VisibilityBuffer buffer(window, triangles);
   buffer.cover(window, triangles);
   return visibility(buffer.shares());
 }
@@ -115,7 +115,7 @@ Result<BestCandidates> find_best(const NearTriangles& triangles, std::span<const
                                  const Sight& sight, const parallel::Context& context) {
   Result<std::vector<ScoreBound>> bounds = parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
-        SightBuffer alone(window_of(directions[i], sight), triangles);
+        VisibilityBuffer alone(window_of(directions[i], sight), triangles);
         const double share = visibility(alone.shares());
         return ScoreBound{std::move(alone), candidate_of(directions[i], share)};
       });

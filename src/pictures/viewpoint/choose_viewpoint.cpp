@@ -18,13 +18,13 @@ using geometry::Vec3d;
 /// Of what shows without all others, so much must be seen for nothing to be cut away.
 constexpr double kEnough = 0.5;
 /// Less than this of the window is not seen.
-constexpr double kLeastShare = 0.004;
+constexpr double kMinShare = 0.004;
 /// Nobody needs to see more of the two than this for a view to be good.
-constexpr double kWellSeen = 0.12;
+constexpr double kWellVisible = 0.12;
 /// How far before the point cuts are tried, shares of the reach: the first that shows enough.
 constexpr std::array kCuts{0.6, 0.25, 0.0};
 /// The side of the window that is judged, a share of what is shown.
-constexpr double kJudged = 0.75;
+constexpr double kSampledReach = 0.75;
 
 struct ChosenDirection {
   ViewCandidate candidate;
@@ -58,8 +58,8 @@ class ViewpointSearch {
 
  private:
   static bool is_enough(const ViewCandidate& candidate, double possible) {
-    return candidate.share >= kLeastShare &&
-           candidate.share >= kEnough * std::min(possible, kWellSeen);
+    return candidate.share >= kMinShare &&
+           candidate.share >= kEnough * std::min(possible, kWellVisible);
   }
 
   Result<BestCandidates> best(const Sight& sight) const {
@@ -112,7 +112,7 @@ Result<ClashViewpoint> choose_viewpoint(const Scenery& scenery, const Subject& s
   const double half = kBox * reach * std::max(options.aspect, 1.0), eye = 2 * half;
   const Result<ChosenDirection> choice =
       ViewpointSearch(kept_within(triangles_near(scenery, roles, point, eye), eye + reach),
-                      pair.away, {kJudged * reach, eye}, context)
+                      pair.away, {kSampledReach * reach, eye}, context)
           .run(reach);
   if (!choice) return choice.error();
   const Axes axes = Axes::towards(choice->candidate.viewer);

@@ -25,8 +25,8 @@ class ItemBuffer {
   /// The window must outlast it.
   ItemBuffer(const Window& window, std::uint32_t first_row, std::uint32_t end_row);
 
-  /// Adds triangles of seen_triangles() by their numbers there, in their order.
-  void add(std::span<const SeenTriangle> triangles, std::span<const std::uint32_t> numbers);
+  /// Adds triangles of project_triangles() by their numbers there, in their order.
+  void add(std::span<const ProjectedTriangle> triangles, std::span<const std::uint32_t> numbers);
 
   /// The row is that of the window, from above.
   [[nodiscard]] const Item& at(std::uint32_t column, std::uint32_t row) const {
@@ -37,8 +37,8 @@ class ItemBuffer {
   [[nodiscard]] std::size_t place(std::uint32_t column, std::uint32_t row) const {
     return std::size_t{row - first_row_} * window_.columns + column;
   }
-  void add(const SeenTriangle& triangle, std::uint32_t number);
-  void close_cuts(std::span<const SeenTriangle> triangles);
+  void add(const ProjectedTriangle& triangle, std::uint32_t number);
+  void close_cuts(std::span<const ProjectedTriangle> triangles);
 
   const Window& window_;
   std::uint32_t first_row_, end_row_;

@@ -30,17 +30,17 @@ std::pair<double, double> range(double a, double b, double c) {
   return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
 }
 
-/// Returns a number cut to 0 to `most`.
-double within(double value, std::uint32_t most) {
-  return std::clamp(value, 0.0, static_cast<double>(most));
+/// Returns a number cut to 0 to `limit`.
+double within(double value, std::uint32_t limit) {
+  return std::clamp(value, 0.0, static_cast<double>(limit));
 }
 
 /// Returns the first and the end of the cells whose middles lie in a range.
-std::array<std::uint32_t, 2> cells(double least, double most, std::uint32_t count) {
+std::array<std::uint32_t, 2> cells(double least, double limit, std::uint32_t count) {
   // Conversion cuts the fraction off, and costs less than rounding does.
   const double from = within(least - 0.5, count);
   const auto first = static_cast<std::uint32_t>(from);
-  return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(most + 0.5, count))};
+  return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(limit + 0.5, count))};
 }
 
 /// The share of the corner opposite to the edge from a to b.
@@ -66,39 +66,40 @@ WindowRange range_of(const Window& w, const Box3d& box) {
           middle.y + y, middle.depth - depth, middle.depth + depth};
 }
 
-std::optional<SeenTriangle> seen_triangle(const Window& w, const NearTriangle& triangle,
-                                          std::uint32_t number) {
+std::optional<ProjectedTriangle> project_triangle(const Window& w, const NearTriangle& triangle,
+                                                  std::uint32_t number) {
   const WindowPoint a = window_point(w, triangle.at[0]), b = window_point(w, triangle.at[1]),
                     c = window_point(w, triangle.at[2]);
-  SeenTriangle seen;
-  std::tie(seen.farthest, seen.nearest) = range(a.depth, b.depth, c.depth);
-  if (seen.farthest > w.eye_mm) return std::nullopt;
-  std::tie(seen.left, seen.right) = range(a.x, b.x, c.x);
-  if (seen.right < 0.5 || seen.left > w.columns - 0.5) return std::nullopt;
+  ProjectedTriangle projected;
+  std::tie(projected.farthest, projected.nearest) = range(a.depth, b.depth, c.depth);
+  if (projected.farthest > w.eye_mm) return std::nullopt;
+  std::tie(projected.left, projected.right) = range(a.x, b.x, c.x);
+  if (projected.right < 0.5 || projected.left > w.columns - 0.5) return std::nullopt;
   const auto [top, bottom] = range(a.y, b.y, c.y);
   const auto [first, end] = cells(top, bottom, w.rows);
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (first >= end || area == 0) return std::nullopt;
-  seen.shares = {share_of(b, c, 1 / area), share_of(c, a, 1 / area), share_of(a, b, 1 / area)};
+  projected.shares = {share_of(b, c, 1 / area), share_of(c, a, 1 / area), share_of(a, b, 1 / area)};
   for (std::size_t k = 0; k < 3; ++k)
-    if (const double along = seen.shares[k].along; along != 0) seen.per_along[k] = 1 / along;
+    if (const double along = projected.shares[k].along; along != 0)
+      projected.per_along[k] = 1 / along;
   const auto mixed = [&](double Slope::* of) {
-    return a.depth * (seen.shares[0].*of) + b.depth * (seen.shares[1].*of) +
-           c.depth * (seen.shares[2].*of);
+    return a.depth * (projected.shares[0].*of) + b.depth * (projected.shares[1].*of) +
+           c.depth * (projected.shares[2].*of);
   };
-  seen.depth = {mixed(&Slope::at), mixed(&Slope::along), mixed(&Slope::down)};
-  seen.number = number;
-  seen.first = first;
-  seen.end = end;
-  seen.own = triangle.role != Role::other;
-  seen.back = area > 0;  // rows grow downwards: fronts turn clockwise
-  seen.solid = triangle.solid;
-  seen.may_be_cut = seen.nearest > w.eye_mm;
-  return seen;
+  projected.depth = {mixed(&Slope::at), mixed(&Slope::along), mixed(&Slope::down)};
+  projected.number = number;
+  projected.first = first;
+  projected.end = end;
+  projected.own = triangle.role != Role::other;
+  projected.back = area > 0;  // rows grow downwards: fronts turn clockwise
+  projected.solid = triangle.solid;
+  projected.may_be_cut = projected.nearest > w.eye_mm;
+  return projected;
 }
 
-std::vector<SeenTriangle> seen_triangles(const Window& w, const NearTriangles& triangles) {
-  std::vector<SeenTriangle> out;
+std::vector<ProjectedTriangle> project_triangles(const Window& w, const NearTriangles& triangles) {
+  std::vector<ProjectedTriangle> out;
   for (const bool own : {false, true})
     for (const TriangleRun& run : triangles.runs(own)) {
       const WindowRange range = range_of(w, run.box);
@@ -107,9 +108,9 @@ std::vector<SeenTriangle> seen_triangles(const Window& w, const NearTriangles& t
         continue;
       const bool cut = may_cut(w, run.box);
       for (std::uint32_t i = run.first; i < run.end; ++i)
-        if (std::optional<SeenTriangle> seen = seen_triangle(w, triangles[i], i)) {
-          seen->may_be_cut = seen->may_be_cut || cut;
-          out.push_back(*seen);
+        if (std::optional<ProjectedTriangle> projected = project_triangle(w, triangles[i], i)) {
+          projected->may_be_cut = projected->may_be_cut || cut;
+          out.push_back(*projected);
         }
     }
   return out;
@@ -124,7 +125,8 @@ bool may_cut(const Window& w, const Box3d& box) {
   });
 }
 
-SeenRow::SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32_t row) {
+TriangleRow::TriangleRow(const Window& window, const ProjectedTriangle& triangle,
+                         std::uint32_t row) {
   const double y = row + 0.5;
   double left = triangle.left, right = triangle.right;
   std::array<double, 3> at{};
@@ -161,7 +163,7 @@ SeenRow::SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32
 }
 
 /// What the window leaves out is left out along a straight row from some column on, or up to it.
-void SeenRow::cut(const Window& w, std::uint32_t row) {
+void TriangleRow::cut(const Window& w, std::uint32_t row) {
   const Vec3d at = model_point(w, {first_ + 0.5, row + 0.5, depth_});
   const Vec3d along = w.axes.right * (2 * w.half_width_mm / w.columns) + w.axes.toward * step_;
   double from = 0, to = static_cast<double>(end_ - first_) - 1;

@@ -47,7 +47,7 @@ struct Slope {
 };
 
 /// A triangle as a window has it.
-struct SeenTriangle {
+struct ProjectedTriangle {
   /// The shares of its three corners: in it none is negative.
   std::array<Slope, 3> shares;
   std::array<double, 3> per_along{};  ///< one over their `along`; 0 where that is 0
@@ -63,26 +63,26 @@ struct SeenTriangle {
 };
 
 /// Returns the triangle where the window has the middle of a point in it that is before the eye.
-[[nodiscard]] std::optional<SeenTriangle> seen_triangle(const Window& window,
-                                                        const NearTriangle& triangle,
-                                                        std::uint32_t number);
+[[nodiscard]] std::optional<ProjectedTriangle> project_triangle(const Window& window,
+                                                                const NearTriangle& triangle,
+                                                                std::uint32_t number);
 
 /// Returns the triangles that a window may have something of: others, then the clash's own, each in
 /// their order.
-[[nodiscard]] std::vector<SeenTriangle> seen_triangles(const Window& window,
-                                                       const NearTriangles& triangles);
+[[nodiscard]] std::vector<ProjectedTriangle> project_triangles(const Window& window,
+                                                               const NearTriangles& triangles);
 
 /// Whether a window may leave out some of a box.
 [[nodiscard]] bool may_cut(const Window& window, const geometry::Box3d& box);
 
-/// Faces nearer to each other than this are one: rounding must not tell them apart.
+/// Faces nearer to each other than this are one: rounding must not distinguish them.
 inline constexpr double kSameDepthMm = 0.02;
 
 /// The columns of a row whose middles lie in a triangle and in what the window shows, and the depth
 /// there.
-class SeenRow {
+class TriangleRow {
  public:
-  SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32_t row);
+  TriangleRow(const Window& window, const ProjectedTriangle& triangle, std::uint32_t row);
 
   [[nodiscard]] std::uint32_t first() const { return first_; }
   [[nodiscard]] std::uint32_t end() const { return end_; }

@@ -7,7 +7,7 @@
 
 namespace strake::pictures {
 
-/// The colour of a class, told apart by all who see colours (Okabe and Ito).
+/// The colour of a class, distinguished by all who see colours (Okabe and Ito).
 [[nodiscard]] constexpr Colour colour_of_class(clash::Class cls) {
   switch (cls) {
     case clash::Class::hit:

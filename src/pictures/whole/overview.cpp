@@ -91,8 +91,8 @@ class Overview {
     const double width = picture_.width_mm - kLegendMm - 2 * kMarginMm;
     const double height = picture_.height_mm - 2 * kMarginMm;
     const double wide = extent_.right - extent_.left, high = extent_.top - extent_.bottom;
-    constexpr double kLeastScale = 0.01;
-    picture_.mm_per_mm = std::max({wide / width, high / height, kLeastScale});
+    constexpr double kMinScale = 0.01;
+    picture_.mm_per_mm = std::max({wide / width, high / height, kMinScale});
     left_ = kMarginMm + (width - wide / picture_.mm_per_mm) / 2;
     top_ = kMarginMm + (height - high / picture_.mm_per_mm) / 2;
   }
@@ -125,7 +125,7 @@ class Overview {
     for (std::size_t i = shown_.size(); i-- > 0;) {
       const clash::Pair& pair = pair_of(contents_, shown_[i].subject.results.front());
       const PicturePoint at = paper(grid_point(pair.point_mm));
-      const bool numbered = i < kMostNumbers;
+      const bool numbered = i < kMaxNumbers;
       const double radius = numbered ? kRadius : kDot;
       picture_.rings.push_back({at, radius + kEdge, 0, kWhite, true});
       picture_.rings.push_back({at, radius, 0, colour_of_class(pair.cls), true});
@@ -162,13 +162,13 @@ class Overview {
              ? counted(shown_.size(), "group, as numbered", "groups, as numbered")
              : std::to_string(shown_.size()) + " marked, 1 is the worst",
          kLegendText, false);
-    if (shown_.size() > kMostNumbers)
-      text("the first " + std::to_string(kMostNumbers) + " have numbers", kLegendText, false);
+    if (shown_.size() > kMaxNumbers)
+      text("the first " + std::to_string(kMaxNumbers) + " have numbers", kLegendText, false);
     const double scale = picture_.mm_per_mm;
     text("about 1:" + std::to_string(std::llround(std::max(1.0, scale))), kLegendText, false);
   }
 
-  static constexpr std::size_t kMostNumbers = 200;
+  static constexpr std::size_t kMaxNumbers = 200;
 
   const report::ClashContents& contents_;
   std::vector<Class> worst_;

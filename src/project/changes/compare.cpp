@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "project/changes/displaced_bodies.hpp"
 #include "project/changes/fingerprints.hpp"
 #include "project/changes/pair_objects.hpp"
-#include "project/changes/same_form.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 #include "strake/project/update.hpp"
@@ -37,8 +37,8 @@ std::uint8_t kinds_of(const PrintedModel& then, std::uint32_t before, const Prin
   const model::Object &old_object = then.model.objects[before], &object = now.model.objects[after];
   std::uint8_t kinds = 0;
   const bool same_shapes = old_print.shapes == print.shapes;
-  const bool same_form = same_shapes || is_displaced(then.model, old_object, now.model, object);
-  if (!same_form)
+  const bool same_bodies = same_shapes || is_displaced(then.model, old_object, now.model, object);
+  if (!same_bodies)
     kinds |= bit(ChangeKind::reshaped);
   else if (!same_shapes || old_print.places != print.places)
     kinds |= bit(ChangeKind::moved);
@@ -46,7 +46,7 @@ std::uint8_t kinds_of(const PrintedModel& then, std::uint32_t before, const Prin
   if (other_id && !(old_object.positional_id && object.positional_id))
     kinds |= bit(ChangeKind::renamed);
   const bool same_paints =
-      same_form ? old_print.paints == print.paints : old_print.looks == print.looks;
+      same_bodies ? old_print.paints == print.paints : old_print.appearance == print.appearance;
   // Another id mostly comes with another name or path, which is one change and not two.
   const bool same_naming = (kinds & bit(ChangeKind::renamed)) != 0 ||
                            old_print.naming == print.naming ||

@@ -161,7 +161,7 @@ class Fingerprinter {
     print.paints = hash_of([&] { add_paints(); });
     std::ranges::sort(paints_);
     paints_.erase(std::ranges::unique(paints_).begin(), paints_.end());
-    print.looks = hash_of([&] { add_paints(); });
+    print.appearance = hash_of([&] { add_paints(); });
     print.naming = hash_of([&] {
       row_.add(std::string_view(object.name));
       row_.add(inherited.path);

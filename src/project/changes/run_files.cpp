@@ -55,16 +55,16 @@ Result<report::RunFiles> run_files(const model::Model& model, const parallel::Co
 }
 
 Result<report::FileMatches> match_files(const model::Model& then, const model::Model& now,
-                                        std::span<const std::string> asked,
+                                        std::span<const std::string> given_pairs,
                                         const parallel::Context& context) {
-  if (asked.empty() && have_equal_labels(then, now))
+  if (given_pairs.empty() && have_equal_labels(then, now))
     return report::match_files(labelled_files(then), labelled_files(now));
   const Result<report::RunFiles> before = run_files(then, context);
   if (!before) return before.error();
   const Result<report::RunFiles> after = run_files(now, context);
   if (!after) return after.error();
   const Result<std::vector<report::FilePair>> pairs =
-      report::parse_file_pairs(asked, *before, *after);
+      report::parse_file_pairs(given_pairs, *before, *after);
   if (!pairs) return pairs.error();
   return report::match_files(*before, *after, *pairs);
 }

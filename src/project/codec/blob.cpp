@@ -33,10 +33,10 @@ static_assert(sizeof(BlobHead) == 32);
 
 /// Returns the most that so many bytes may become, so that a small file cannot fill the memory.
 /// What compresses better is stored as it is.
-constexpr std::uint64_t most_raw(std::uint64_t stored) {
+constexpr std::uint64_t max_raw_size(std::uint64_t stored) {
   constexpr std::uint64_t kAlways = 1U << 16U, kTimes = 256;
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 40U;
-  return kAlways + std::min(stored, kMost / kTimes) * kTimes;
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 40U;
+  return kAlways + std::min(stored, kMax / kTimes) * kTimes;
 }
 
 template <class T>
@@ -52,7 +52,7 @@ std::optional<BlobHead> head_of(std::span<const std::byte> blob) {
   const std::span<const std::byte> packed = blob.subspan(sizeof head);
   const bool stored = head.packing == Packing::none && head.raw_size == packed.size();
   const bool compressed = head.packing == Packing::zstd &&
-                          head.raw_size <= most_raw(packed.size()) &&
+                          head.raw_size <= max_raw_size(packed.size()) &&
                           head.raw_size == ZSTD_getFrameContentSize(packed.data(), packed.size());
   if (head.magic != kMagic || (!stored && !compressed)) return std::nullopt;
   return head;
@@ -160,7 +160,7 @@ Result<std::vector<std::byte>> BlobWriter::finish(int level) {
     const std::size_t size = ZSTD_compress(out.data() + sizeof head, out.size() - sizeof head,
                                            values.data(), values.size(), level);
     if (ZSTD_isError(size) != 0U) return out_of_memory();  // it fails for nothing else
-    if (size < values.size() && values.size() <= most_raw(size)) {
+    if (size < values.size() && values.size() <= max_raw_size(size)) {
       head.packing = Packing::zstd;
       out.resize(sizeof head + size);
     } else {

@@ -13,7 +13,7 @@
 namespace strake::project {
 namespace {
 
-/// What people are told of a code of SQLite.
+/// The message for a code of SQLite.
 struct Meaning {
   ErrorCode code = ErrorCode::internal;
   std::string message, mend;

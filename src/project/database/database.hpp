@@ -150,9 +150,9 @@ class ReadScope {
 class Transaction {
  public:
   /// Errors: that another process writes (after the connection's time to wait), that the project
-  /// is open for reading only, or that it is on read-only media. `least_wait_ms`: it waits so long
+  /// is open for reading only, or that it is on read-only media. `min_wait_ms`: it waits so long
   /// even where the connection would not.
-  [[nodiscard]] static Result<Transaction> begin(Database& database, int least_wait_ms = 0);
+  [[nodiscard]] static Result<Transaction> begin(Database& database, int min_wait_ms = 0);
   /// The same without waiting: nothing where another process writes.
   [[nodiscard]] static Result<std::optional<Transaction>> begin_at_once(Database& database);
   ~Transaction();

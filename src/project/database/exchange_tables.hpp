@@ -5,7 +5,7 @@ namespace strake::project {
 
 // Decision 0105 says why this is a table of its own.
 
-/// What people said, where the event of it does not tell that alone: an event tells in one text
+/// What people said, where the event of it does not show that alone: an event tells in one text
 /// what was said and what was set, and knows nothing of other programs. Version 3 brought it; of
 /// comments before it there are no rows, nor of those that are all that an event tells.
 inline constexpr const char* kExchangeTables = R"sql(

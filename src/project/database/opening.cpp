@@ -198,8 +198,8 @@ class Opening {
     return *version < kSchemaVersion;
   }
 
-  /// A reader sees one state of the project as long as it is open; a writer is told at once that
-  /// another one is at work.
+  /// A reader sees one state of the project as long as it is open; a writer gets at once the error
+  /// that another one is at work.
   Status settle(Database& database) {
     if (options_.access == Access::read)
       return database.execute("BEGIN; SELECT count(*) FROM sqlite_schema");

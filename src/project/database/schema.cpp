@@ -27,7 +27,7 @@ namespace {
 using SchemaEntry = std::tuple<std::string, std::string, std::string, std::string>;
 
 /// Returns what the tables are, without what SQLite makes for itself: indices of UNIQUE, statistics
-/// that somebody asked for.
+/// that somebody requested.
 Result<std::vector<SchemaEntry>> schema_entries(Database& database) {
   Result<Statement> rows = database.prepare(
       "SELECT type, name, tbl_name, coalesce(sql, '') FROM sqlite_schema WHERE NOT (type = 'index' "

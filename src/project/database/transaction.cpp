@@ -24,9 +24,9 @@ ReadScope::~ReadScope() {
 ReadScope::ReadScope(ReadScope&& other) noexcept
     : database_(std::exchange(other.database_, nullptr)) {}
 
-Result<Transaction> Transaction::begin(Database& database, int least_wait_ms) {
+Result<Transaction> Transaction::begin(Database& database, int min_wait_ms) {
   if (database.access_ == Access::read) return database.error(SQLITE_READONLY);
-  sqlite3_busy_timeout(database.handle_, std::max(database.wait_ms_, least_wait_ms));
+  sqlite3_busy_timeout(database.handle_, std::max(database.wait_ms_, min_wait_ms));
   const Status begun = database.execute("BEGIN IMMEDIATE");
   sqlite3_busy_timeout(database.handle_, kRecoveryMs);
   if (!begun) return begun.error();

@@ -5,7 +5,7 @@
 
 namespace strake::project {
 
-/// Stored views: what a person asked for, and what was last solved for it.
+/// Stored views: what a person requested, and what was last solved for it.
 inline constexpr std::string_view kViewTables = R"(
 CREATE TABLE view (
   id INTEGER PRIMARY KEY,

@@ -12,7 +12,7 @@
 
 #include "clash/results/clash_key.hpp"
 #include "project/history/kept_runs.hpp"
-#include "project/history/sights.hpp"
+#include "project/history/observations.hpp"
 #include "report/text/formatting.hpp"
 
 namespace strake::project {
@@ -29,9 +29,9 @@ class DocumentOfRun {
       clash::Report& report = hashed.tests.emplace_back();
       report.name = test.name;
       report.hash = test.hash;
-      report::DocumentTest& told = document.tests.emplace_back();
-      told.name = test.name;
-      told.hash = test.hash;
+      report::DocumentTest& document_test = document.tests.emplace_back();
+      document_test.name = test.name;
+      document_test.hash = test.hash;
     }
     document.hash = clash::hash_of(hashed);
     if (const auto& rules = run.record.rules)
@@ -102,17 +102,17 @@ class RunComparer {
   }
 
   Status run(const KeptRun& before, const KeptRun& after) {
-    Result<Sights> sights = Sights::of(database_);
-    if (!sights) return sights.error();
+    Result<Observations> observations = Observations::of(database_);
+    if (!observations) return observations.error();
     for (std::uint32_t t = 0; t < after.tests.size(); ++t) {
       const RunResult& now = after.tests[t];
       const auto then = std::ranges::find(before.tests, now.test, &RunResult::test);
       if (then == before.tests.end()) {
         made_.diff.tests_added.push_back(now.name);
-        const SightAt none{SightAt::Kind::not_known, {}, no_test(now)};
-        const Status status =
-            sights->each(now.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
-              return add(*sights, row, {none, seen.second}, 0, t);
+        const ObservationAt none{ObservationAt::Kind::not_known, {}, no_test(now)};
+        const Status status = observations->each(
+            now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+              return add(*observations, row, {none, observed.second}, 0, t);
             });
         if (!status) return status;
         continue;
@@ -120,9 +120,9 @@ class RunComparer {
       compare_settings(*then, now);
       if (const Status status = count(*then, now); !status) return status;
       const auto of_before = static_cast<std::uint32_t>(then - before.tests.begin());
-      const Status status =
-          sights->each(now.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
-            return add(*sights, row, seen, of_before, t);
+      const Status status = observations->each(
+          now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+            return add(*observations, row, observed, of_before, t);
           });
       if (!status) return status;
     }
@@ -131,10 +131,10 @@ class RunComparer {
       if (std::ranges::find(after.tests, then.test, &RunResult::test) != after.tests.end())
         continue;
       made_.diff.tests_gone.push_back(then.name);
-      const SightAt none{SightAt::Kind::cannot_tell, {}, no_test(then)};
-      const Status status =
-          sights->each(then.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
-            return add(*sights, row, {seen.first, none}, t, 0);
+      const ObservationAt none{ObservationAt::Kind::cannot_tell, {}, no_test(then)};
+      const Status status = observations->each(
+          then.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+            return add(*observations, row, {observed.first, none}, t, 0);
           });
       if (!status) return status;
     }
@@ -175,40 +175,41 @@ class RunComparer {
         {now.name, "settings", quoted(then.settings), quoted(now.settings)});
   }
 
-  Status add(Sights& sights, const ClashRow& row, const SightPair& seen, std::uint32_t test_before,
-             std::uint32_t test_after) {
-    const auto& [then, now] = seen;
-    const bool was = then.sight == SightAt::Kind::found, is = now.sight == SightAt::Kind::found;
+  Status add(Observations& observations, const ClashRow& row, const ObservationPair& observed,
+             std::uint32_t test_before, std::uint32_t test_after) {
+    const auto& [then, now] = observed;
+    const bool was = then.kind == ObservationAt::Kind::found,
+               is = now.kind == ObservationAt::Kind::found;
     if (!was && !is) return {};
     Entry& entry = entries_.emplace_back();
     if (was) entry.before = before_.add(row, then.now, test_before);
     if (is) entry.after = after_.add(row, now.now, test_after);
     if (was && is) return {};
-    const SightAt& other = was ? now : then;
-    if (other.sight != SightAt::Kind::gone) {
+    const ObservationAt& other = was ? now : then;
+    if (other.kind != ObservationAt::Kind::gone) {
       entry.why = other.why;
     } else {
-      Result<std::string> rule = sights.allowed_by(row.id, was ? runs_.second : runs_.first);
+      Result<std::string> rule = observations.allowed_by(row.id, was ? runs_.second : runs_.first);
       if (!rule) return rule.error();
       entry.why = std::move(*rule);
     }
     entry.list = is ? &made_.diff.added
-                    : (other.sight == SightAt::Kind::cannot_tell ? &made_.diff.cannot_tell
-                                                                 : &made_.diff.gone);
+                    : (other.kind == ObservationAt::Kind::cannot_tell ? &made_.diff.cannot_tell
+                                                                      : &made_.diff.gone);
     return {};
   }
 
   /// All results are where they will be.
   void finish() {
     for (Entry& entry : entries_) {
-      report::DiffEntry told;
-      if (entry.before) told.before = &made_.before.results[*entry.before];
-      if (entry.after) told.after = &made_.after.results[*entry.after];
-      told.why = std::move(entry.why);
+      report::DiffEntry entry_of_diff;
+      if (entry.before) entry_of_diff.before = &made_.before.results[*entry.before];
+      if (entry.after) entry_of_diff.after = &made_.after.results[*entry.after];
+      entry_of_diff.why = std::move(entry.why);
       if (entry.list == nullptr)
-        made_.diff.add_still_there(std::move(told));
+        made_.diff.add_still_there(std::move(entry_of_diff));
       else
-        entry.list->push_back(std::move(told));
+        entry.list->push_back(std::move(entry_of_diff));
     }
     made_.diff.sort();
   }
@@ -222,8 +223,9 @@ class RunComparer {
 
 }  // namespace
 
-Result<std::unique_ptr<RunComparison>> compare_runs(Database& database, const ComparedRuns& asked) {
-  const Result<std::pair<KeptRun, KeptRun>> runs = runs_to_compare(database, asked);
+Result<std::unique_ptr<RunComparison>> compare_runs(Database& database,
+                                                    const ComparedRuns& request) {
+  const Result<std::pair<KeptRun, KeptRun>> runs = runs_to_compare(database, request);
   if (!runs) return runs.error();
   const auto& [before, after] = *runs;
   auto made = std::make_unique<RunComparison>();

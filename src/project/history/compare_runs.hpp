@@ -51,6 +51,6 @@ struct RunComparison {
 /// runs of which nothing is kept: those of the first version of the tables; input for a damaged
 /// project.
 [[nodiscard]] Result<std::unique_ptr<RunComparison>> compare_runs(Database& database,
-                                                                  const ComparedRuns& asked);
+                                                                  const ComparedRuns& request);
 
 }  // namespace strake::project

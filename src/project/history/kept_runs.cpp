@@ -37,7 +37,7 @@ class KeptRuns {
     }
   }
 
-  /// Finds a run that somebody asked for.
+  /// Finds a run that somebody requested.
   [[nodiscard]] Result<KeptRun> find(std::int64_t number,
                                      const std::optional<std::string>& test) const {
     const auto at = std::ranges::find(runs_, number, &KeptRun::number);
@@ -137,18 +137,19 @@ Status check_test_name(Database& database, const std::string& name) {
 
 }  // namespace
 
-Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database, const ComparedRuns& asked) {
-  if (asked.test)
-    if (const Status status = check_test_name(database, *asked.test); !status)
+Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database,
+                                                    const ComparedRuns& request) {
+  if (request.test)
+    if (const Status status = check_test_name(database, *request.test); !status)
       return status.error();
-  const Result<KeptRuns> kept = KeptRuns::read(database, asked.test);
+  const Result<KeptRuns> kept = KeptRuns::read(database, request.test);
   if (!kept) return kept.error();
-  if (!asked.runs) return kept->last_two();
-  if (asked.runs->first >= asked.runs->second)
+  if (!request.runs) return kept->last_two();
+  if (request.runs->first >= request.runs->second)
     return Error{ErrorCode::usage, "the earlier run comes first", "--runs", "as --runs 3 7"};
-  Result<KeptRun> first = kept->find(asked.runs->first, asked.test);
+  Result<KeptRun> first = kept->find(request.runs->first, request.test);
   if (!first) return first.error();
-  Result<KeptRun> second = kept->find(asked.runs->second, asked.test);
+  Result<KeptRun> second = kept->find(request.runs->second, request.test);
   if (!second) return second.error();
   return std::pair(std::move(*first), std::move(*second));
 }

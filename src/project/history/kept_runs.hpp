@@ -21,6 +21,6 @@ struct KeptRun {
 
 /// Finds the two runs, with what of their tests is to be compared. Errors: those of compare_runs().
 [[nodiscard]] Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database,
-                                                                  const ComparedRuns& asked);
+                                                                  const ComparedRuns& request);
 
 }  // namespace strake::project

@@ -15,8 +15,8 @@
 namespace strake::project {
 namespace {
 
-Result<std::vector<std::string>> tests_to_tell(Database& database,
-                                               const std::optional<std::string>& test) {
+Result<std::vector<std::string>> selected_tests(Database& database,
+                                                const std::optional<std::string>& test) {
   if (!test) return last_tests(database);
   const Result<std::vector<std::string>> names = test_names(database);
   if (!names) return names.error();
@@ -34,7 +34,7 @@ Result<std::vector<std::string>> tests_to_tell(Database& database,
 Result<report::ClashDocument> last_document(Database& database,
                                             const std::optional<std::string>& test,
                                             const parallel::Context& context) {
-  const Result<std::vector<std::string>> tests = tests_to_tell(database, test);
+  const Result<std::vector<std::string>> tests = selected_tests(database, test);
   if (!tests) return tests.error();
   if (tests->empty()) return no_result(database);
   const Result<LastRun> run = read_last_run(database, *tests, context);

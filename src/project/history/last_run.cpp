@@ -26,12 +26,13 @@ void add_test(const clash::Report& report, const std::vector<std::int64_t>& rows
     const clash::Pair& pair = report.pairs[i];
     const bool is_allowed = pair.allowed >= 0;
     const auto at = now.clashes.find(rows[i]);
-    const bool is_told = at != now.clashes.end() &&
-                         (at->second.row.is_touched() ||
-                          (!is_allowed && at->second.status != report::DecisionStatus::undecided));
-    const auto status = is_told ? at->second.status : report::DecisionStatus::undecided;
+    const bool is_listed =
+        at != now.clashes.end() &&
+        (at->second.row.is_touched() ||
+         (!is_allowed && at->second.status != report::DecisionStatus::undecided));
+    const auto status = is_listed ? at->second.status : report::DecisionStatus::undecided;
     if (!is_allowed) ++now.decided.counts[static_cast<std::size_t>(status)];
-    if (is_told)
+    if (is_listed)
       results.push_back({pair.a, pair.b, pair.cls, is_allowed, report::Reopened::no, false,
                          &now.file->decisions[decision_of_row.at(rows[i])]});
   }

@@ -106,7 +106,7 @@ Cell cell_of(const Statement& row, int column, char type) {
   return std::string(row.text(column));
 }
 
-Result<Listing> list_rows(Database& database, const ListSource& source, std::uint64_t most) {
+Result<Listing> list_rows(Database& database, const ListSource& source, std::uint64_t limit) {
   Listing list;
   for (const ListColumn& column : source.columns) list.columns.emplace_back(column.name);
   Result<Statement> rows =
@@ -117,7 +117,7 @@ Result<Listing> list_rows(Database& database, const ListSource& source, std::uin
     if (!more) return more.error();
     if (!*more) return list;
     ++list.all;
-    if (most > 0 && list.all > most) continue;
+    if (limit > 0 && list.all > limit) continue;
     std::vector<Cell>& cells = list.rows.emplace_back();
     for (std::size_t c = 0; c < source.columns.size(); ++c)
       cells.push_back(cell_of(*rows, static_cast<int>(c), source.columns[c].type));
@@ -135,7 +135,7 @@ std::int64_t triangles_of(const model::Shape& shape) {
   return mesh == nullptr ? 0 : static_cast<std::int64_t>(mesh->triangles.size());
 }
 
-Listing list_shapes(const model::Model& model, std::uint64_t most) {
+Listing list_shapes(const model::Model& model, std::uint64_t limit) {
   std::vector<ShapeUse> uses(model.shapes.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const model::Object& object = model.objects[o];
@@ -151,7 +151,7 @@ Listing list_shapes(const model::Model& model, std::uint64_t most) {
            std::tuple(x.uses, y.first_object, y.shape);
   });
   Listing list{{"kind", "bodies", "triangles", "file", "first_object"}, {}, uses.size()};
-  if (most > 0 && uses.size() > most) uses.resize(most);
+  if (limit > 0 && uses.size() > limit) uses.resize(limit);
   for (const ShapeUse& use : uses) {
     const model::Object& object = model.objects[use.first_object];
     list.rows.push_back({std::string(model::kind_name(model.shapes[use.shape])),
@@ -163,12 +163,12 @@ Listing list_shapes(const model::Model& model, std::uint64_t most) {
 
 }  // namespace
 
-Result<Listing> list(Project& project, ListKind kind, std::uint64_t most,
+Result<Listing> list(Project& project, ListKind kind, std::uint64_t limit,
                      const parallel::Context& context) {
-  if (kind != ListKind::shapes) return list_rows(project.database(), source_of(kind), most);
+  if (kind != ListKind::shapes) return list_rows(project.database(), source_of(kind), limit);
   const Result<model::Model> model = project.model(context);
   if (!model) return model.error();
-  return list_shapes(*model, most);
+  return list_shapes(*model, limit);
 }
 
 }  // namespace strake::project

@@ -31,8 +31,8 @@ struct BodyRange {
 };
 
 /// What a value takes of a block at least, in bytes.
-inline constexpr std::uint64_t kLeastOfObject = 26, kLeastOfBody = 41, kLeastOfGroup = 12,
-                               kLeastOfAttributes = 4, kLeastOfShape = 1;
+inline constexpr std::uint64_t kMinOfObject = 26, kMinOfBody = 41, kMinOfGroup = 12,
+                               kMinOfAttributes = 4, kMinOfShape = 1;
 
 using Blob = std::vector<std::byte>;
 

@@ -12,14 +12,14 @@ namespace {
 
 struct BlockFacts {
   std::string_view name;
-  std::uint64_t least_bytes;  ///< of an item, before it is compressed
+  std::uint64_t min_bytes;  ///< of an item, before it is compressed
 };
 
-constexpr std::array<BlockFacts, 6> kKindFacts{{{"objects", kLeastOfObject},
-                                                {"bodies", kLeastOfBody},
-                                                {"shapes", kLeastOfShape},
-                                                {"groups", kLeastOfGroup},
-                                                {"group attributes", kLeastOfAttributes},
+constexpr std::array<BlockFacts, 6> kKindFacts{{{"objects", kMinOfObject},
+                                                {"bodies", kMinOfBody},
+                                                {"shapes", kMinOfShape},
+                                                {"groups", kMinOfGroup},
+                                                {"group attributes", kMinOfAttributes},
                                                 {"diagnostics", 0}}};
 
 const BlockFacts& facts_of(BlockKind kind) { return kKindFacts[static_cast<std::size_t>(kind)]; }
@@ -51,7 +51,7 @@ Result<std::vector<Blob>> read_blocks(Database& database, std::int64_t file, Blo
           fmt::format("there are not all {} of file {}, or too many", kind_name(kind), file));
     const std::span<const std::byte> data = statement->bytes(1);
     if (BlobReader::raw_size(data) <
-        items_of_block(items, blocks.size()) * facts_of(kind).least_bytes)
+        items_of_block(items, blocks.size()) * facts_of(kind).min_bytes)
       return database.damaged(
           fmt::format("there are fewer {} of file {} than it says", kind_name(kind), file));
     blocks.emplace_back(data.begin(), data.end());

@@ -67,7 +67,7 @@ class ModelLoader {
   Status check_blocks();
   Status share_shapes();
   void join_diagnostics();
-  [[nodiscard]] Diagnostics tell_of_places() const;
+  [[nodiscard]] Diagnostics place_diagnostics() const;
   [[nodiscard]] Hash128 hash_of_names() const;
   [[nodiscard]] std::vector<clash::HashedBodies> hashes_of_bodies() const;
   [[nodiscard]] std::string name_of(const BlockTask& task) const {
@@ -300,15 +300,15 @@ void ModelLoader::join_diagnostics() {
     files[places_[tasks_[t].row].file] = {std::move(findings_[t].diagnostics), row.name,
                                           row.file.source.label, row.file.given};
   }
-  model_.diagnostics = joined_diagnostics(files, tell_of_places());
+  model_.diagnostics = joined_diagnostics(files, place_diagnostics());
 }
 
 /// Files of a project lie in coordinates of their own.
-Diagnostics ModelLoader::tell_of_places() const {
+Diagnostics ModelLoader::place_diagnostics() const {
   std::vector<io::FilePlace> places;
   for (const FileRow& row : rows_) places.push_back({row.file.given, row.map});
   std::ranges::sort(places, {}, &io::FilePlace::file);
-  return io::tell_of_places(places, false);
+  return io::place_diagnostics(places, false);
 }
 
 /// Objects are ordered by the labels of their files, then as their blocks are.

@@ -14,9 +14,9 @@ constexpr std::uint8_t kIncomplete = 1, kPositional = 2;
 
 /// Returns how many first bytes two ids share, as far as that is stored.
 std::uint8_t shared_bytes(std::string_view a, std::string_view b) {
-  const std::size_t most = std::min({a.size(), b.size(), kLongestShared});
+  const std::size_t largest = std::min({a.size(), b.size(), kLongestShared});
   const auto differ =
-      std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(most), b.begin());
+      std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(largest), b.begin());
   return static_cast<std::uint8_t>(differ.first - a.begin());
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 /// A pack is closed when it has so many bytes, so that there are enough of them for all workers.
 constexpr std::uint64_t kPackBytes = std::uint64_t{1} << 20U;
-constexpr std::size_t kMostOfPack = 65'536;
+constexpr std::size_t kMaxOfPack = 65'536;
 
 struct PackRow {
   std::uint32_t id = 0;
@@ -190,7 +190,7 @@ Result<std::vector<PackedShape>> ShapePacks::add(std::span<const model::Shape> s
       places.push_back(found->second);
       continue;
     }
-    if (bytes >= kPackBytes || packs.back().size() >= kMostOfPack) {
+    if (bytes >= kPackBytes || packs.back().size() >= kMaxOfPack) {
       packs.emplace_back();
       bytes = 0;
     }

@@ -72,6 +72,6 @@ Status ClashHistory::set_unseen(std::int64_t clash, const OpenParts& parts) {
   return put_.run();
 }
 
-Status ClashHistory::set_seen(std::int64_t clash) { return remove_.bind(1, clash).run(); }
+Status ClashHistory::remove_unseen(std::int64_t clash) { return remove_.bind(1, clash).run(); }
 
 }  // namespace strake::project

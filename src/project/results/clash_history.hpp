@@ -29,7 +29,7 @@ class ClashHistory {
   /// Returns nothing where the last run lists a result of the clash, or the clash is gone.
   [[nodiscard]] Result<std::optional<OpenParts>> unseen(std::int64_t clash);
   [[nodiscard]] Status set_unseen(std::int64_t clash, const OpenParts& parts);
-  [[nodiscard]] Status set_seen(std::int64_t clash);
+  [[nodiscard]] Status remove_unseen(std::int64_t clash);
 
  private:
   ClashHistory(Statement former, Statement find, Statement put, Statement remove);

@@ -52,7 +52,8 @@ Status check_test(const std::map<std::int64_t, TestName>& tests, const std::stri
 }
 
 /// Returns what somebody said and did besides the status, for people.
-std::string told(const ClashRow& before, const ClashRow& after, const ClashDecision& decision) {
+std::string event_text(const ClashRow& before, const ClashRow& after,
+                       const ClashDecision& decision) {
   std::string text = decision.comment.value_or(std::string());
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (after.comment.empty() && !before.comment.empty()) add("the comment is taken back");
@@ -219,9 +220,9 @@ Result<bool> ClashDecider::decide(const ClashRow& before, const ClashDecision& d
                    decision.by,
                    before.status(run),
                    after.status(run),
-                   told(before, after, decision)};
-  const std::string said = decision.comment.value_or(std::string());
-  if (event.comment != said) event.said = Said{.text = said};
+                   event_text(before, after, decision)};
+  const std::string typed = decision.comment.value_or(std::string());
+  if (event.comment != typed) event.original = OriginalComment{.text = typed};
   if (event.before == event.after && event.comment.empty()) return true;
   if (const Status status = rows_.add(event); !status) return status.error();
   return true;

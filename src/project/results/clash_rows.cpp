@@ -117,10 +117,16 @@ Result<ClashRow> row_of(const Database& database, const Statement& at) {
   return row;
 }
 
-report::DecisionComment ClashEvent::spoken() const {
+report::DecisionComment ClashEvent::person_comment() const {
   if (run) return {};
-  if (!said) return {at, who, comment};
-  return {at, who, said->text, said->guid, said->topic, said->first_at, said->first_by};
+  if (!original) return {at, who, comment};
+  return {at,
+          who,
+          original->text,
+          original->guid,
+          original->topic,
+          original->first_at,
+          original->first_by};
 }
 
 Result<ClashEvent> event_of(const Database& database, const Statement& at) {
@@ -136,24 +142,24 @@ Result<ClashEvent> event_of(const Database& database, const Statement& at) {
   event.after = *after;
   event.comment = at.text(6);
   if (at.is_null(7)) return event;
-  Said said;
+  OriginalComment original;
   int column = 7;
   for (std::string* const text :
-       {&said.text, &said.guid, &said.topic, &said.first_at, &said.first_by})
+       {&original.text, &original.guid, &original.topic, &original.first_at, &original.first_by})
     *text = at.text(column++);
-  event.said = std::move(said);
+  event.original = std::move(original);
   return event;
 }
 
 ClashRows::ClashRows(Database& database, Statement by_id, Statement by_key, Statement insert,
-                     Statement update, Statement event, Statement said)
+                     Statement update, Statement event, Statement original)
     : database_(&database),
       by_id_(std::move(by_id)),
       by_key_(std::move(by_key)),
       insert_(std::move(insert)),
       update_(std::move(update)),
       event_(std::move(event)),
-      said_(std::move(said)) {}
+      original_(std::move(original)) {}
 
 Result<ClashRows> ClashRows::of(Database& database) {
   const std::string_view columns = kClashColumns.substr(kClashColumns.find(',') + 1);
@@ -177,12 +183,12 @@ Result<ClashRows> ClashRows::of(Database& database) {
       "INSERT INTO event (clash, run, at, who, before, after, comment) "
       "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
   if (!event) return event.error();
-  Result<Statement> said = database.prepare(
+  Result<Statement> original = database.prepare(
       "INSERT INTO said (event, text, guid, topic, first_at, first_by) "
       "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
-  if (!said) return said.error();
+  if (!original) return original.error();
   return ClashRows(database, std::move(*by_id), std::move(*by_key), std::move(*insert),
-                   std::move(*update), std::move(*event), std::move(*said));
+                   std::move(*update), std::move(*event), std::move(*original));
 }
 
 Result<std::optional<ClashRow>> ClashRows::take(Statement& statement) {
@@ -227,16 +233,16 @@ Status ClashRows::add(const ClashEvent& event) {
   event.run ? to.put(*event.run) : to.null();
   to.text(event.at).text(event.who).text(name(event.before)).text(name(event.after));
   to.text(event.comment);
-  if (const Status status = event_.run(); !status || !event.said) return status;
-  const Said& said = *event.said;
-  Binder(said_)
+  if (const Status status = event_.run(); !status || !event.original) return status;
+  const OriginalComment& original = *event.original;
+  Binder(original_)
       .put(database_->last_insert_id())
-      .text(said.text)
-      .text_or_null(said.guid)
-      .text_or_null(said.topic)
-      .text_or_null(said.first_at)
-      .text_or_null(said.first_by);
-  return said_.run();
+      .text(original.text)
+      .text_or_null(original.guid)
+      .text_or_null(original.topic)
+      .text_or_null(original.first_at)
+      .text_or_null(original.first_by);
+  return original_.run();
 }
 
 }  // namespace strake::project

@@ -64,7 +64,7 @@ struct NewClash {
 
 /// What somebody said, where that is not all that an event tells, or another program has a name for
 /// it.
-struct Said {
+struct OriginalComment {
   std::string text = {};                     ///< empty: nothing
   std::string guid = {}, topic = {};         ///< as report::DecisionComment has them
   std::string first_at = {}, first_by = {};  ///< likewise
@@ -76,11 +76,11 @@ struct ClashEvent {
   std::optional<std::int64_t> run;  ///< the run that did it; absent: a person, between runs
   std::string at, who;
   report::DecisionStatus before{}, after{};
-  std::string comment;            ///< what it tells
-  std::optional<Said> said = {};  ///< absent: what it tells is what was said
+  std::string comment;                           ///< what it tells
+  std::optional<OriginalComment> original = {};  ///< absent: what it tells is what was said
 
   /// Returns what somebody said; of what a program did, nothing.
-  [[nodiscard]] report::DecisionComment spoken() const;
+  [[nodiscard]] report::DecisionComment person_comment() const;
 };
 
 /// The columns of an event and of what was said in it, which event_of() reads, and where they are.
@@ -118,10 +118,10 @@ class ClashRows {
 
  private:
   ClashRows(Database& database, Statement by_id, Statement by_key, Statement insert,
-            Statement update, Statement event, Statement said);
+            Statement update, Statement event, Statement original);
   Result<std::optional<ClashRow>> take(Statement& statement);
   Database* database_;
-  Statement by_id_, by_key_, insert_, update_, event_, said_;
+  Statement by_id_, by_key_, insert_, update_, event_, original_;
 };
 
 }  // namespace strake::project

@@ -42,7 +42,7 @@ bool has_same_lengths(const clash::Report& x, const clash::Report& y) {
                             });
 }
 
-/// Whether an object has lines, which a test checks only where it is asked to.
+/// Whether an object has lines, which a test checks only where it is requested to.
 bool has_lines(const model::Model& model, model::ObjectId id) {
   const model::Object& object = model.object(id);
   for (std::uint32_t b = object.first_body; b < object.first_body + object.body_count; ++b)
@@ -70,7 +70,7 @@ Coverage::Coverage(const model::Model& model, const clash::Sets& sets, const cla
 }
 
 std::string Coverage::reason(const SoughtObject& a, const SoughtObject& b,
-                             const LastSeen& last) const {
+                             const LastFound& last) const {
   for (const SoughtObject* const object : {&a, &b})
     if (!object->id) return named(*object) + " is not in the model";
   if (std::string why = of_sets(a, b); !why.empty()) return why;
@@ -150,7 +150,7 @@ std::string Coverage::of_report(model::ObjectId a, model::ObjectId b) const {
 /// Where runs could not tell since the clash was found, how that run tested is not known any more:
 /// the report of the run before it may already lack what this one lacks.
 std::string Coverage::of_settings(model::ObjectId a, model::ObjectId b,
-                                  const LastSeen& last) const {
+                                  const LastFound& last) const {
   const bool is_long_ago = !last.unknown.empty();
   if (last.report == nullptr && !is_long_ago) return {};
   const bool had_curves = is_long_ago || last.report->options.engine.curves == clash::Curves::on;

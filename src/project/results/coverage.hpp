@@ -25,7 +25,7 @@ struct SoughtObject {
 };
 
 /// What is known of a clash from the runs before.
-struct LastSeen {
+struct LastFound {
   Measure was;  ///< what it measured when it was found last
   /// Why the run before could not tell whether it is there; empty where it found it.
   std::string_view unknown;
@@ -46,7 +46,7 @@ class Coverage {
   [[nodiscard]] std::int64_t open_parts(model::ObjectId id) const;
   /// Returns the reason; empty where the two were compared.
   [[nodiscard]] std::string reason(const SoughtObject& a, const SoughtObject& b,
-                                   const LastSeen& last) const;
+                                   const LastFound& last) const;
 
  private:
   [[nodiscard]] std::string of_sets(const SoughtObject& a, const SoughtObject& b) const;
@@ -54,7 +54,7 @@ class Coverage {
   [[nodiscard]] std::string of_exemptions(model::ObjectId a, model::ObjectId b) const;
   [[nodiscard]] std::string of_report(model::ObjectId a, model::ObjectId b) const;
   [[nodiscard]] std::string of_settings(model::ObjectId a, model::ObjectId b,
-                                        const LastSeen& last) const;
+                                        const LastFound& last) const;
 
   const model::Model& model_;
   const clash::Sets& sets_;

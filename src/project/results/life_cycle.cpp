@@ -26,12 +26,12 @@ std::string cause_of(Reopened why, const Measure& then, const Measure& now) {
                      then.regions == 1 ? "place" : "places", now.regions);
 }
 
-LifeChange found(const LifeState& state, const Seen& seen, double deeper_mm) {
+LifeChange found(const LifeState& state, const Observation& observed, double deeper_mm) {
   if (state.status == DecisionStatus::resolved)
     return {DecisionStatus::undecided, true, true, Reopened::found_again, "found again"};
-  const Reopened why = reopened(state, seen.now, deeper_mm);
+  const Reopened why = reopened(state, observed.now, deeper_mm);
   if (why == Reopened::no) return {.status = state.status};
-  return {DecisionStatus::undecided, false, true, why, cause_of(why, state.decided, seen.now)};
+  return {DecisionStatus::undecided, false, true, why, cause_of(why, state.decided, observed.now)};
 }
 
 LifeChange resolved(const LifeState& state, std::string cause) {
@@ -42,17 +42,17 @@ LifeChange resolved(const LifeState& state, std::string cause) {
 
 }  // namespace
 
-LifeChange next(const LifeState& state, const Seen& seen, double deeper_mm) {
-  switch (seen.sight) {
-    case Sight::found:
-      return found(state, seen, deeper_mm);
-    case Sight::allowed:
+LifeChange next(const LifeState& state, const Observation& observed, double deeper_mm) {
+  switch (observed.kind) {
+    case ObservationKind::found:
+      return found(state, observed, deeper_mm);
+    case ObservationKind::allowed:
       // An approval holds whether a rule says the same or not, and is there when the rule goes.
       if (state.status == DecisionStatus::approved) return {.status = state.status};
-      return resolved(state, "allowed by rule '" + seen.why + "'");
-    case Sight::gone:
+      return resolved(state, "allowed by rule '" + observed.why + "'");
+    case ObservationKind::gone:
       return resolved(state, "no longer found");
-    case Sight::cannot_tell:
+    case ObservationKind::cannot_tell:
       break;
   }
   return {.status = state.status};

@@ -22,7 +22,7 @@ struct Measure {
   friend bool operator==(const Measure&, const Measure&) = default;
 };
 
-enum class Sight : std::uint8_t {
+enum class ObservationKind : std::uint8_t {
   found,
   allowed,      ///< found, and a rule allows it
   gone,         ///< the two were compared, and it is not there
@@ -30,8 +30,8 @@ enum class Sight : std::uint8_t {
 };
 
 /// What a run says of a clash; `why` names the rule, or why it cannot tell.
-struct Seen {
-  Sight sight = Sight::found;
+struct Observation {
+  ObservationKind kind = ObservationKind::found;
   Measure now;
   std::string why;
 };
@@ -55,6 +55,7 @@ struct LifeChange {
 
 /// Returns it. An approved clash comes back where its class is severer, where d is less than it was
 /// by more than `deeper_mm`, and where the two meet at more places.
-[[nodiscard]] LifeChange next(const LifeState& state, const Seen& seen, double deeper_mm);
+[[nodiscard]] LifeChange next(const LifeState& state, const Observation& observed,
+                              double deeper_mm);
 
 }  // namespace strake::project

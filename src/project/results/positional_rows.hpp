@@ -17,7 +17,7 @@ namespace strake::project {
 [[nodiscard]] report::Decision decision_of(const ClashRow& row, const std::string& test);
 
 /// Returns for each of some results whose ids are only positions the row that it has, by where the
-/// clash is, as for decisions in a file; nothing where that does not tell.
+/// clash is, as for decisions in a file; nothing where that does not show.
 [[nodiscard]] std::vector<std::optional<std::size_t>> match_positional(
     const model::Model& model, const clash::Report& report, std::span<const std::size_t> results,
     std::span<const ClashRow> rows);

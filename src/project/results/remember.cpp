@@ -85,16 +85,17 @@ class DecidedBuilder {
     std::uint64_t rest = count_listed(report);
     for (const std::size_t at : new_ones) {
       const clash::Pair& pair = report.pairs[at];
-      if (pair.allowed >= 0 || memory.told().contains(at)) continue;
+      if (pair.allowed >= 0 || memory.reported().contains(at)) continue;
       undecided.emplace_back(pair.a, pair.b);
       count(DecisionStatus::undecided, rest);
     }
-    for (const auto& [at, told] : memory.told()) {
+    for (const auto& [at, reported] : memory.reported()) {
       const clash::Pair& pair = report.pairs[at];
       results.push_back(
-          {pair.a, pair.b, pair.cls, pair.allowed >= 0, told.reopened, false, nullptr});
-      told_.push_back({test, results.size() - 1, add(told_of(told, memory.is_new(at), report))});
-      decision_of_.emplace(told.row.id, told_.back().decision);
+          {pair.a, pair.b, pair.cls, pair.allowed >= 0, reported.reopened, false, nullptr});
+      reported_.push_back(
+          {test, results.size() - 1, add(reported_decision(reported, memory.is_new(at), report))});
+      decision_of_.emplace(reported.row.id, reported_.back().decision);
       if (pair.allowed < 0) count(decisions_.back().status, rest);
     }
     run_.decided.counts[static_cast<std::size_t>(DecisionStatus::active)] += rest;
@@ -116,7 +117,7 @@ class DecidedBuilder {
       if (at == decision_of_.end()) continue;
       const Result<ClashEvent> event = event_of(database, *select);
       if (!event) return event.error();
-      report::DecisionComment comment = event->spoken();
+      report::DecisionComment comment = event->person_comment();
       if (comments == RunComments::with_history) comment.text = event->comment;
       if (!comment.text.empty()) decisions_[at->second].comments.push_back(std::move(comment));
     }
@@ -131,14 +132,14 @@ class DecidedBuilder {
     decided.file = run_.file.get();
     decided.deeper_mm = deeper_mm;
     for (report::OtherResults& rest : decided.others) rest.result.decision = decisions.data();
-    for (const Told& told : told_)
-      decided.tests[told.test][told.result].decision = &decisions[told.decision];
+    for (const ReportedResult& reported : reported_)
+      decided.tests[reported.test][reported.result].decision = &decisions[reported.decision];
     for (const std::size_t at : not_found_) decided.not_found.push_back(&decisions[at]);
   }
 
  private:
   /// A result that has a decision of its own, which get their places in the end.
-  struct Told {
+  struct ReportedResult {
     std::size_t test = 0, result = 0, decision = 0;
   };
 
@@ -153,9 +154,10 @@ class DecidedBuilder {
     return decisions_.size() - 1;
   }
 
-  [[nodiscard]] static report::Decision told_of(const ToldClash& told, bool is_new,
-                                                const clash::Report& report) {
-    report::Decision decision = decision_of(told.row, report.name);
+  [[nodiscard]] static report::Decision reported_decision(const ReportedClash& reported,
+                                                          bool is_new,
+                                                          const clash::Report& report) {
+    report::Decision decision = decision_of(reported.row, report.name);
     if (decision.status == DecisionStatus::undecided && !is_new)
       decision.status = DecisionStatus::active;
     return decision;
@@ -163,7 +165,7 @@ class DecidedBuilder {
 
   RememberedRun& run_;
   std::vector<report::Decision> decisions_;
-  std::vector<Told> told_;
+  std::vector<ReportedResult> reported_;
   std::map<std::int64_t, std::size_t> decision_of_;  ///< by the row of the clash
   std::vector<std::size_t> not_found_;
 };

@@ -63,7 +63,7 @@ struct TestTrend {
 /// What decisions have of what people said.
 enum class RunComments : std::uint8_t {
   none,          ///< what holds now
-  said,          ///< all that was said
+  all_comments,  ///< all comments of people
   with_history,  ///< and what was set along with it: who sees to a clash, comments taken back
 };
 

@@ -106,7 +106,7 @@ Status TestMemory::run(const parallel::Context& context) {
 }
 
 std::vector<std::size_t> TestMemory::new_results() const {
-  std::vector<std::size_t> results = looked_at_new_;
+  std::vector<std::size_t> results = maybe_new_;
   std::erase_if(results, [&](std::size_t at) { return !is_new_[at]; });
   if (!std::ranges::is_sorted(results)) std::ranges::sort(results);
   const auto repeated = std::ranges::unique(results);
@@ -151,10 +151,10 @@ Result<bool> TestMemory::take_first(const parallel::Context& context) {
   for (std::size_t at = 0; at < match_.rows.size(); ++at) {
     if (match_.rows[at] == 0) continue;
     is_new_[at] = true;
-    looked_at_new_.push_back(at);
+    maybe_new_.push_back(at);
   }
-  trend_.written += looked_at_new_.size();
-  trend_.appeared += looked_at_new_.size();
+  trend_.written += maybe_new_.size();
+  trend_.appeared += maybe_new_.size();
   return true;
 }
 
@@ -168,14 +168,14 @@ Status TestMemory::take_match(const parallel::Context& context) {
         match.now ? match_.rows[*match.now] : (match.before ? match.before->row : 0);
     if (id == 0) {
       if (!match.now) continue;
-      if (const Status status = appear(*match.now, (*keys)[i]); !status) return status;
+      if (const Status status = add_result(*match.now, (*keys)[i]); !status) return status;
       continue;
     }
     Result<ClashRow> row = existing(id);
     if (!row) return row.error();
     if (match.before) keep_open_parts(*row, *match.before->pair);
     if (!match.now) {
-      if (const Status status = miss(std::move(*row)); !status) return status;
+      if (const Status status = update_not_found(std::move(*row)); !status) return status;
       continue;
     }
     const Pair& pair = report_.pairs[*match.now];
@@ -185,7 +185,7 @@ Status TestMemory::take_match(const parallel::Context& context) {
       match_.rows[*match.now] = 0;
       positional_results_.push_back(*match.now);
       wait(std::move(*row), kOnlyPosition);
-    } else if (const Status status = see(std::move(*row), *match.now); !status) {
+    } else if (const Status status = update_found(std::move(*row), *match.now); !status) {
       return status;
     }
   }
@@ -198,7 +198,7 @@ void TestMemory::wait(ClashRow row, std::string why) {
 }
 
 /// A result that had no row in the run before.
-Status TestMemory::appear(std::size_t at, const Hash128& key) {
+Status TestMemory::add_result(std::size_t at, const Hash128& key) {
   const Pair& pair = report_.pairs[at];
   if (pair.allowed >= 0) return {};
   if (!is_positional(pair) || before_ == nullptr) return add(at, clash::key_text(key));
@@ -215,7 +215,7 @@ Status TestMemory::add(std::size_t at, const std::string& key) {
   Result<std::optional<ClashRow>> known = table_.find(std::string_view(key));
   if (!known) return known.error();
   if (*known && (!is_positional(pair) || (**known).point_mm == pair.point_mm))
-    return see(std::move(**known), at);
+    return update_found(std::move(**known), at);
   if (*known)
     if (const Status status = park(**known); !status) return status;
   added = insert(at, key);
@@ -236,7 +236,7 @@ Result<bool> TestMemory::insert(std::size_t at, const std::string& key) {
   ++trend_.appeared;
   match_.rows[at] = **row;
   is_new_[at] = true;
-  looked_at_new_.push_back(at);
+  maybe_new_.push_back(at);
   return true;
 }
 
@@ -248,18 +248,18 @@ void TestMemory::describe(ClashRow& row, const Pair& pair) const {
   row.point_mm = pair.point_mm;
 }
 
-Status TestMemory::see(ClashRow row, std::size_t at) {
+Status TestMemory::update_found(ClashRow row, std::size_t at) {
   const Pair& pair = report_.pairs[at];
   const ClashRow before = row;
   row.key = key_of(pair);
   describe(row, pair);
   match_.rows[at] = row.id;
-  Seen seen{.now = measure_of(pair), .why = {}};
+  Observation observed{.now = measure_of(pair), .why = {}};
   if (pair.allowed >= 0) {
-    seen.sight = Sight::allowed;
-    seen.why = report_.allowed[static_cast<std::size_t>(pair.allowed)].rule;
+    observed.kind = ObservationKind::allowed;
+    observed.why = report_.allowed[static_cast<std::size_t>(pair.allowed)].rule;
   }
-  return apply(before, row, seen, at);
+  return apply(before, row, observed, at);
 }
 
 SoughtObject TestMemory::sought(const ClashSide& side) const {
@@ -285,7 +285,7 @@ void TestMemory::keep_open_parts(const ClashRow& row, const Pair& before) {
 
 /// What is known of the run that saw a clash last: the one before, or what was kept of an earlier
 /// one; nothing where an earlier version of the program kept nothing.
-Result<OpenParts> TestMemory::open_when_seen(const ClashRow& row) {
+Result<OpenParts> TestMemory::last_open_parts(const ClashRow& row) {
   const Result<std::optional<OpenParts>> kept = history_.unseen(row.id);
   if (!kept) return kept.error();
   if (*kept) return **kept;
@@ -295,22 +295,22 @@ Result<OpenParts> TestMemory::open_when_seen(const ClashRow& row) {
 
 /// A row whose two objects are a contact that the run only counts. It is there, as it would be if
 /// the contact were listed; its place and its depth are not known.
-Status TestMemory::see_counted(ClashRow row, const clash::UnlistedContact& contact) {
+Status TestMemory::update_counted(ClashRow row, const clash::UnlistedContact& contact) {
   const ClashRow before = row;
   if (row.now.cls != clash::Class::contact) {
     row.now = {clash::Class::contact, 0, 0};
     row.relation = clash::Relation::abut_outside;
   }
-  Seen seen{.now = row.now, .why = {}};
+  Observation observed{.now = row.now, .why = {}};
   if (contact.allowed >= 0) {
-    seen.sight = Sight::allowed;
-    seen.why = report_.allowed[static_cast<std::size_t>(contact.allowed)].rule;
+    observed.kind = ObservationKind::allowed;
+    observed.why = report_.allowed[static_cast<std::size_t>(contact.allowed)].rule;
   }
-  return apply(before, row, seen, std::nullopt);
+  return apply(before, row, observed, std::nullopt);
 }
 
 /// A row whose result is not there.
-Status TestMemory::miss(ClashRow row) {
+Status TestMemory::update_not_found(ClashRow row) {
   SoughtObject a = sought(row.a), b = sought(row.b);
   const auto is_place = [&](const SoughtObject& object) {
     return !object.id || model_.object(*object.id).positional_id;
@@ -318,8 +318,8 @@ Status TestMemory::miss(ClashRow row) {
   const bool by_place = is_place(a) || is_place(b);
   if (!by_place)
     if (const clash::UnlistedContact* const contact = coverage_.counted(*a.id, *b.id))
-      return see_counted(std::move(row), *contact);
-  const Result<OpenParts> open = open_when_seen(row);
+      return update_counted(std::move(row), *contact);
+  const Result<OpenParts> open = last_open_parts(row);
   if (!open) return open.error();
   a.open = open->a;
   b.open = open->b;
@@ -328,24 +328,25 @@ Status TestMemory::miss(ClashRow row) {
     wait(std::move(row), why.empty() ? kOnlyPosition : std::move(why));
     return {};
   }
-  const Seen seen{why.empty() ? Sight::gone : Sight::cannot_tell, row.now, why};
+  const Observation observed{why.empty() ? ObservationKind::gone : ObservationKind::cannot_tell,
+                             row.now, why};
   const ClashRow before = row;
-  return apply(before, row, seen, std::nullopt);
+  return apply(before, row, observed, std::nullopt);
 }
 
 /// Keeps what runs before said of a row, and of one without a result what the run that saw it last
 /// knew of its objects.
-Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row, const Seen& seen,
-                                bool has_result) {
-  const auto told = [](const ClashRow& r) {
+Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row,
+                                const Observation& observed, bool has_result) {
+  const auto measures = [](const ClashRow& r) {
     return std::tuple(r.now.cls, r.now.d_mm, r.now.regions, r.gone_run.has_value(), r.unknown);
   };
-  if (told(row) != told(before))
+  if (measures(row) != measures(before))
     if (const Status status = history_.add_former(before, run_); !status) return status;
-  if (has_result || row.gone_run) return history_.set_seen(row.id);
-  Result<OpenParts> open = open_when_seen(before);
+  if (has_result || row.gone_run) return history_.remove_unseen(row.id);
+  Result<OpenParts> open = last_open_parts(before);
   if (!open) return open.error();
-  if (seen.sight != Sight::cannot_tell) {
+  if (observed.kind != ObservationKind::cannot_tell) {
     const SoughtObject a = sought(row.a), b = sought(row.b);
     open = OpenParts{coverage_.open_parts(*a.id), coverage_.open_parts(*b.id)};
   }
@@ -355,15 +356,15 @@ Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row, con
 }
 
 /// Writes what this run makes of a row, if that is anything else.
-Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Seen& seen,
+Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Observation& observed,
                          std::optional<std::size_t> pair) {
   handled_.insert(row.id);
-  const LifeChange change = next(state_of(before), seen, facts_.deeper_mm);
+  const LifeChange change = next(state_of(before), observed, facts_.deeper_mm);
   row.decision = change.status;
-  row.unknown = seen.sight == Sight::cannot_tell ? seen.why : std::string();
+  row.unknown = observed.kind == ObservationKind::cannot_tell ? observed.why : std::string();
   if (!change.is_there) {
     if (was_there(before)) row.gone_run = run_;
-  } else if (seen.sight != Sight::cannot_tell) {
+  } else if (observed.kind != ObservationKind::cannot_tell) {
     row.gone_run.reset();
   }
   if (change.is_new) row.new_run = run_;
@@ -390,13 +391,13 @@ Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Seen& seen
     if (const Status status = table_.update(row); !status) return status;
     ++trend_.written;
   }
-  if (const Status status = keep_history(before, row, seen, pair.has_value()); !status)
+  if (const Status status = keep_history(before, row, observed, pair.has_value()); !status)
     return status;
   if (!pair) return {};
   is_new_[*pair] = row.new_run == run_;
-  if (is_new_[*pair]) looked_at_new_.push_back(*pair);
+  if (is_new_[*pair]) maybe_new_.push_back(*pair);
   if (row.is_touched() || change.reopened != report::Reopened::no)
-    told_.insert_or_assign(*pair, ToldClash{change.reopened, row});
+    reported_.insert_or_assign(*pair, ReportedClash{change.reopened, row});
   return {};
 }
 
@@ -439,7 +440,8 @@ Status TestMemory::take_watched() {
   }
   for (std::size_t r = 0; r < rows->size(); ++r) {
     ClashRow& row = (*rows)[r];
-    const Status status = results[r] ? see(std::move(row), *results[r]) : miss(std::move(row));
+    const Status status =
+        results[r] ? update_found(std::move(row), *results[r]) : update_not_found(std::move(row));
     if (!status) return status;
   }
   return {};
@@ -467,14 +469,16 @@ Status TestMemory::take_positional() {
   for (std::size_t i = 0; i < positional_results_.size(); ++i) {
     const std::size_t at = positional_results_[i];
     if (found[i]) is_found[*found[i]] = true;
-    const Status status = found[i] ? see(rows[*found[i]], at) : add(at, key_of(report_.pairs[at]));
+    const Status status =
+        found[i] ? update_found(rows[*found[i]], at) : add(at, key_of(report_.pairs[at]));
     if (!status) return status;
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (is_found[r]) continue;
-    const Seen seen{Sight::cannot_tell, rows[r].now, waiting_[r].why};
+    const Observation observed{ObservationKind::cannot_tell, rows[r].now, waiting_[r].why};
     const ClashRow before = rows[r];
-    if (const Status status = apply(before, rows[r], seen, std::nullopt); !status) return status;
+    if (const Status status = apply(before, rows[r], observed, std::nullopt); !status)
+      return status;
   }
   return {};
 }

@@ -18,7 +18,7 @@
 namespace strake::project {
 
 /// The clash of a result that somebody wrote into, or that came back, for reports.
-struct ToldClash {
+struct ReportedClash {
   report::Reopened reopened = report::Reopened::no;
   ClashRow row;
 };
@@ -34,7 +34,7 @@ struct WaitingRow {
 class TestMemory {
  public:
   /// What it is given must outlive it; `before` is null where the test was never run, `changes`
-  /// where nothing tells what the run did to the results of that.
+  /// where nothing shows what the run did to the results of that.
   TestMemory(Database& database, ClashRows& rows, ClashHistory& history, const model::Model& model,
              const RunFacts& facts, std::int64_t run, const TestedTest& test, TestRow row,
              const StoredTest* before, const clash::PairChanges* changes);
@@ -51,7 +51,7 @@ class TestMemory {
   /// Returns the results that is_new(), ascending.
   [[nodiscard]] std::vector<std::size_t> new_results() const;
   /// Returns what there is to be said of results, by their numbers.
-  [[nodiscard]] const std::map<std::size_t, ToldClash>& told() const { return told_; }
+  [[nodiscard]] const std::map<std::size_t, ReportedClash>& reported() const { return reported_; }
   /// Returns decided clashes that this run did not find and cannot tell about.
   [[nodiscard]] const std::vector<ClashRow>& not_found() const { return not_found_; }
 
@@ -62,16 +62,16 @@ class TestMemory {
   [[nodiscard]] Status take_positional();
   [[nodiscard]] Status take_watched();
   [[nodiscard]] Result<std::vector<Hash128>> keys_of_new(const parallel::Context& context) const;
-  [[nodiscard]] Status appear(std::size_t pair, const Hash128& key);
+  [[nodiscard]] Status add_result(std::size_t pair, const Hash128& key);
   [[nodiscard]] Status add(std::size_t pair, const std::string& key);
   [[nodiscard]] Result<bool> insert(std::size_t pair, const std::string& key);
-  [[nodiscard]] Status see(ClashRow row, std::size_t pair);
-  [[nodiscard]] Status see_counted(ClashRow row, const clash::UnlistedContact& contact);
-  [[nodiscard]] Status miss(ClashRow row);
-  [[nodiscard]] Status apply(const ClashRow& before, ClashRow& row, const Seen& seen,
+  [[nodiscard]] Status update_found(ClashRow row, std::size_t pair);
+  [[nodiscard]] Status update_counted(ClashRow row, const clash::UnlistedContact& contact);
+  [[nodiscard]] Status update_not_found(ClashRow row);
+  [[nodiscard]] Status apply(const ClashRow& before, ClashRow& row, const Observation& observed,
                              std::optional<std::size_t> pair);
-  [[nodiscard]] Status keep_history(const ClashRow& before, const ClashRow& row, const Seen& seen,
-                                    bool has_result);
+  [[nodiscard]] Status keep_history(const ClashRow& before, const ClashRow& row,
+                                    const Observation& observed, bool has_result);
   [[nodiscard]] Status park(ClashRow& row);
   [[nodiscard]] Result<std::vector<ClashRow>> watched();
   [[nodiscard]] Result<ClashRow> existing(std::int64_t id);
@@ -82,7 +82,7 @@ class TestMemory {
   [[nodiscard]] SoughtObject sought(const ClashSide& side) const;
   [[nodiscard]] const clash::Report* earlier_report() const;
   void keep_open_parts(const ClashRow& row, const clash::Pair& before);
-  [[nodiscard]] Result<OpenParts> open_when_seen(const ClashRow& row);
+  [[nodiscard]] Result<OpenParts> last_open_parts(const ClashRow& row);
 
   Database& database_;
   ClashRows& table_;
@@ -103,9 +103,9 @@ class TestMemory {
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
   std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
-  std::vector<bool> is_new_;                ///< of each result
-  std::vector<std::size_t> looked_at_new_;  ///< all that may be, in any order
-  std::map<std::size_t, ToldClash> told_;
+  std::vector<bool> is_new_;            ///< of each result
+  std::vector<std::size_t> maybe_new_;  ///< all that may be, in any order
+  std::map<std::size_t, ReportedClash> reported_;
   std::vector<ClashRow> not_found_;
 };
 

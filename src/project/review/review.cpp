@@ -22,8 +22,8 @@ enum class Ruling : std::uint8_t { nothing, take, conflict };
 /// Whether nobody has settled a clash of this status.
 bool is_open(DecisionStatus status) { return status <= DecisionStatus::active; }
 
-bool agrees(const ReviewStatus& said, DecisionStatus status) {
-  return status == said.given || (said.is_open && is_open(status));
+bool agrees(const ReviewStatus& reviewed, DecisionStatus status) {
+  return status == reviewed.given || (reviewed.is_open && is_open(status));
 }
 
 Ruling ruling_on_status(const ReviewedTopic& topic, const ReviewedClash& clash,
@@ -38,14 +38,14 @@ Ruling ruling_on_status(const ReviewedTopic& topic, const ReviewedClash& clash,
 
 Ruling ruling_on_assignee(const ReviewedTopic& topic, const std::string& now,
                           const ReviewRules& rules) {
-  const std::string said = rules.compared(topic.assignee), has = rules.compared(now);
-  if (said == has) return Ruling::nothing;
+  const std::string reviewed = rules.compared(topic.assignee), current = rules.compared(now);
+  if (reviewed == current) return Ruling::nothing;
   if (topic.written_mark) {
-    if (rules.mark(said) == *topic.written_mark) return Ruling::nothing;
-    return rules.mark(has) == *topic.written_mark ? Ruling::take : Ruling::conflict;
+    if (rules.mark(reviewed) == *topic.written_mark) return Ruling::nothing;
+    return rules.mark(current) == *topic.written_mark ? Ruling::take : Ruling::conflict;
   }
-  if (said.empty()) return Ruling::nothing;
-  return has.empty() ? Ruling::take : Ruling::conflict;
+  if (reviewed.empty()) return Ruling::nothing;
+  return current.empty() ? Ruling::take : Ruling::conflict;
 }
 
 Error no_listed_clash(const std::string& key) {
@@ -53,7 +53,7 @@ Error no_listed_clash(const std::string& key) {
 }
 
 /// What people said, in the form in which it is compared: who, what and when.
-using ComparedSaid = std::tuple<std::string, std::string, std::string>;
+using CommentKey = std::tuple<std::string, std::string, std::string>;
 
 class ReviewTaker {
  public:
@@ -117,7 +117,7 @@ class ReviewTaker {
     return {};
   }
 
-  /// Whether what a review says is to be taken; a conflict is told.
+  /// Whether what a review says is to be taken; a conflict is reported.
   bool counts(Ruling ruling, const ReviewedTopic& topic, const ListedClash& clash,
               const char* what) {
     if (ruling != Ruling::conflict) return ruling == Ruling::take;
@@ -128,22 +128,22 @@ class ReviewTaker {
     return rules_.prefers_review;
   }
 
-  [[nodiscard]] ComparedSaid said(const report::DecisionComment& comment) const {
+  [[nodiscard]] CommentKey comment_key(const report::DecisionComment& comment) const {
     return {rules_.compared(comment.by), rules_.compared(comment.text), comment.at};
   }
 
   /// What is known of what was said of a clash.
   struct KnownComments {
-    std::set<ComparedSaid> said;
+    std::set<CommentKey> keys;
     /// The last words of comments that other programs name, by their GUIDs.
     std::map<std::string, std::string> by_guid;
     std::string last;  ///< when its comment was said
 
     /// Whether people said this; where it is not known when, whether they said it at any time.
-    [[nodiscard]] bool has(const ComparedSaid& some) const {
-      if (!std::get<2>(some).empty()) return said.contains(some);
-      const auto same = said.lower_bound(some);
-      return same != said.end() && std::get<0>(*same) == std::get<0>(some) &&
+    [[nodiscard]] bool has(const CommentKey& some) const {
+      if (!std::get<2>(some).empty()) return keys.contains(some);
+      const auto same = keys.lower_bound(some);
+      return same != keys.end() && std::get<0>(*same) == std::get<0>(some) &&
              std::get<1>(*same) == std::get<1>(some);
     }
   };
@@ -157,11 +157,12 @@ class ReviewTaker {
     if (!events) return events.error();
     for (const ClashEvent& event : *events) {
       if (event.run || event.comment.empty()) continue;
-      const report::DecisionComment spoken = event.spoken();
-      known.said.insert(said(spoken));
+      const report::DecisionComment comment_made = event.person_comment();
+      known.keys.insert(comment_key(comment_made));
       // It may have gone out with all that its event tells.
-      known.said.insert(said({event.at, event.who, event.comment}));
-      if (!spoken.guid.empty()) known.by_guid[spoken.guid] = rules_.compared(spoken.text);
+      known.keys.insert(comment_key({event.at, event.who, event.comment}));
+      if (!comment_made.guid.empty())
+        known.by_guid[comment_made.guid] = rules_.compared(comment_made.text);
       // Behind a comment an event tells what else was set.
       const std::string& comment = clash.row.comment;
       if (!comment.empty() && event.comment.starts_with(comment))
@@ -199,20 +200,20 @@ class ReviewTaker {
   Status take(report::DecisionComment comment, const std::string& decided_at,
               std::vector<CommentedClash>& clashes) {
     const std::string words = rules_.compared(comment.text);
-    const ComparedSaid told = said(comment);
+    const CommentKey key = comment_key(comment);
     for (const CommentedClash& clash : clashes) {
       const auto named = clash.known->by_guid.find(comment.guid);
       const bool is_same = named != clash.known->by_guid.end() && named->second == words;
-      if (!is_same && !clash.known->has(told)) continue;
+      if (!is_same && !clash.known->has(key)) continue;
       ++taken_.known_comments;
       return {};
     }
     if (comment.at.empty()) comment.at = decided_at;
     comment.text = valid_utf8(comment.text);
-    const ComparedSaid now = said(comment);
+    const CommentKey dated_key = comment_key(comment);
     for (CommentedClash& clash : clashes) {
       KnownComments& known = *clash.known;
-      known.said.insert(now);
+      known.keys.insert(dated_key);
       if (!comment.guid.empty()) known.by_guid[comment.guid] = words;
       if (comment.at >= known.last) {
         known.last = comment.at;
@@ -230,8 +231,8 @@ class ReviewTaker {
     ClashEvent event{clash.row.id, std::nullopt, comment.at,  comment.by,
                      clash.status, clash.status, comment.text};
     if (!comment.guid.empty())
-      event.said =
-          Said{comment.text, comment.guid, comment.topic, comment.first_at, comment.first_by};
+      event.original = OriginalComment{comment.text, comment.guid, comment.topic, comment.first_at,
+                                       comment.first_by};
     return rows_.add(event);
   }
 

@@ -10,8 +10,8 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 
-/// The objects that a result was computed from, by their names: so that it can be told although the
-/// model is another one by now.
+/// The objects that a result was computed from, by their names: so that it can be known although
+/// the model is another one by now.
 namespace strake::project {
 
 /// Returns the names of the objects and of the files of a model as the values of a row: whether

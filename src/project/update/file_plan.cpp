@@ -35,7 +35,7 @@ io::ReadOptions inherited(io::ReadOptions options, const io::ReadOptions& before
 
 /// Returns what was said of every file alike: a file whose place is not known yet is read so, or it
 /// would be like none of them.
-io::ReadOptions said_of_all(const std::vector<StoredFile>& files) {
+io::ReadOptions common_options(const std::vector<StoredFile>& files) {
   if (files.empty()) return {};
   const io::ReadOptions& first = files.front().options;
   const bool alike = std::ranges::all_of(
@@ -58,7 +58,7 @@ Result<bool> has_changed(const StoredFile& stored, const io::FileToRead& file,
   return *content != stored.content;
 }
 
-/// Gives files whose names repeat their folders, so that messages and OLD=NEW tell them apart.
+/// Gives files whose names repeat their folders, so that messages and OLD=NEW distinguish them.
 std::vector<std::string> labels_of(const std::vector<FileToStore*>& files) {
   std::map<std::string, std::size_t> count;
   for (const FileToStore* const file : files) ++count[file->model.files.front().label];
@@ -77,7 +77,7 @@ class PlaceFinder {
 
   /// `known` are those that are read anyhow.
   Status find(const std::vector<const StoredFile*>& known, std::vector<FileToStore*> sought,
-              const std::vector<std::string>& asked, const model::Model& then,
+              const std::vector<std::string>& given_pairs, const model::Model& then,
               const parallel::Context& context) {
     Result<report::RunFiles> before = run_files(then, context);
     if (!before) return before.error();
@@ -94,7 +94,7 @@ class PlaceFinder {
       after.files.push_back(std::move(one->files.front()));
     }
     const Result<std::vector<report::FilePair>> pairs =
-        report::parse_file_pairs(asked, *before, after);
+        report::parse_file_pairs(given_pairs, *before, after);
     if (!pairs) return pairs.error();
     const Result<report::FileMatches> matches = report::match_files(*before, after, *pairs);
     if (!matches) return matches.error();
@@ -176,7 +176,7 @@ Result<std::vector<OutdatedFile>> outdated_files(const std::vector<StoredFile>& 
                                                  const UpdateRequest& request,
                                                  const parallel::Context& context) {
   std::vector<OutdatedFile> sought;
-  const io::ReadOptions of_all = said_of_all(files);
+  const io::ReadOptions of_all = common_options(files);
   for (const io::FileToRead& file : request.files) {
     const StoredFile* const stored = find_file(files, file.path);
     const io::ReadOptions& before = stored == nullptr ? of_all : stored->options;
@@ -199,7 +199,7 @@ Result<std::vector<OutdatedFile>> outdated_files(const std::vector<StoredFile>& 
 
 Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
                              const std::vector<OutdatedFile>& outdated,
-                             const std::vector<std::string>& asked, const model::Model& then,
+                             const std::vector<std::string>& given_pairs, const model::Model& then,
                              const parallel::Context& context) {
   FilePlan plan;
   std::vector<const StoredFile*> known;
@@ -220,11 +220,12 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
     }
     plan.read.push_back(std::move(*read));
   }
-  if (sought.empty() && asked.empty()) return plan;
+  if (sought.empty() && given_pairs.empty()) return plan;
   std::vector<FileToStore*> to_place;
   for (const std::size_t f : sought) to_place.push_back(&plan.read[f]);
   PlaceFinder finder(files, plan);
-  if (const Status status = finder.find(known, std::move(to_place), asked, then, context); !status)
+  if (const Status status = finder.find(known, std::move(to_place), given_pairs, then, context);
+      !status)
     return status.error();
   return plan;
 }

@@ -49,7 +49,7 @@ struct OutdatedFile {
 /// project has. Errors: those of update().
 [[nodiscard]] Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
                                            const std::vector<OutdatedFile>& outdated,
-                                           const std::vector<std::string>& asked,
+                                           const std::vector<std::string>& given_pairs,
                                            const model::Model& then,
                                            const parallel::Context& context);
 

@@ -138,9 +138,9 @@ NewIdentities new_identities(const model::Model& before, const Labels& labels) {
   return all;
 }
 
-/// Returns whether the objects that a test was last run on are told apart by today's labels as they
-/// were by those of then: a file may now have the label of one that is no more, and objects that
-/// the model has no longer keep their identities.
+/// Returns whether the objects that a test was last run on are distinguished by today's labels as
+/// they were by those of then: a file may now have the label of one that is no more, and objects
+/// that the model has no longer keep their identities.
 Result<bool> keeps_files_apart(Database& database, std::int64_t test, const Labels& labels,
                                const NewIdentities& identities) {
   Result<Statement> select = database.prepare("SELECT names FROM test_objects WHERE test = ?1");

@@ -18,7 +18,7 @@ struct RenamedFile {
 /// Gives clashes, decisions, stored results and drawings of files the labels of today: keys and
 /// identities are made of them. `before` is the model that still has the former labels; labels may
 /// be exchanged. To be called within the transaction that writes the files under their new labels,
-/// whether they were renamed or only need more folders to be told from their namesakes.
+/// whether they were renamed or only need more folders to be distinguished from their namesakes.
 [[nodiscard]] Status rename_files(Database& database, const model::Model& before,
                                   std::span<const RenamedFile> renamed);
 

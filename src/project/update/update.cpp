@@ -310,10 +310,10 @@ Result<Update> update(Project& project, const UpdateRequest& request, const Revi
                  "'strake project add' adds some"};
   const Result<std::vector<OutdatedFile>> outdated = outdated_files(*then, request, context);
   if (!outdated) return outdated.error();
-  if (outdated->empty() && request.asked.empty()) return nothing_changed(*then);
+  if (outdated->empty() && request.given_pairs.empty()) return nothing_changed(*then);
   const Result<model::Model> then_model = project.model(context);
   if (!then_model) return then_model.error();
-  Result<FilePlan> plan = plan_update(*then, *outdated, request.asked, *then_model, context);
+  Result<FilePlan> plan = plan_update(*then, *outdated, request.given_pairs, *then_model, context);
   if (!plan) return plan.error();
   Result<Update> done = store_update(project, std::move(*plan), *then, *then_model, note, context);
   if (!done) return done;

@@ -28,7 +28,7 @@ constexpr std::uint64_t kFormWithoutHatches = 1, kFormOfOne = 2, kFormInParts = 
 /// How many objects have their lines in one part: enough that a part is compressed well, and few
 /// enough that lines which a change reaches all over a drawing write little of it.
 constexpr std::size_t kObjectsPerDrawingPart = 256;
-constexpr std::size_t kMostOf32Bits = std::size_t{1} << 32U;
+constexpr std::size_t kMaxOf32Bits = std::size_t{1} << 32U;
 
 /// Appends the numbers that `get` takes from each item, `each` to an item.
 template <class Item, class Get>
@@ -184,7 +184,7 @@ std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects
   std::vector<hlr::LineCount> counts;
   counts.reserve(values.size() / 2);
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
-    if (!is_number(values[i], kMostOf32Bits) || !is_number(values[i + 1], kMostOf32Bits)) {
+    if (!is_number(values[i], kMaxOf32Bits) || !is_number(values[i + 1], kMaxOf32Bits)) {
       in.refuse("an object has a number of lines that is none");
       return {};
     }

@@ -42,7 +42,7 @@ void write_head(BlobWriter& out, const hlr::Drawing& drawing);
     BlobReader& head, std::span<const std::span<const std::byte>> parts, const std::string& what,
     const parallel::Context& context);
 
-/// Returns whether two drawings have the same lines, curves, fates and reports, and were asked for
+/// Returns whether two drawings have the same lines, curves, fates and reports, and were requested
 /// in the same way; how much work they were does not matter. Errors: out of memory.
 [[nodiscard]] Result<bool> are_equal(const hlr::Drawing& x, const hlr::Drawing& y);
 

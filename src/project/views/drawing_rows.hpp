@@ -42,7 +42,7 @@ struct StoredDrawing {
   DrawingParts parts = {};
 };
 
-/// Which drawing of a view is asked for: one that was solved under the signature `whole`, and by
+/// Which drawing of a view is requested: one that was solved under the signature `whole`, and by
 /// this version of the program; what is not given may be any.
 struct WantedDrawing {
   std::optional<Hash128> whole = {};

@@ -7,7 +7,7 @@ namespace strake::project {
 
 namespace {
 
-constexpr std::size_t kMostPlanes = 8;
+constexpr std::size_t kMaxPlanes = 8;
 
 /// Small numbers of either sign become small ones without.
 std::uint64_t folded(std::uint64_t difference) {
@@ -36,7 +36,7 @@ void join_planes(const std::uint8_t* bytes, std::span<std::int64_t> values) {
   }
 }
 
-constexpr std::array<void (*)(const std::uint8_t*, std::span<std::int64_t>), kMostPlanes + 1>
+constexpr std::array<void (*)(const std::uint8_t*, std::span<std::int64_t>), kMaxPlanes + 1>
     kJoinPlanes{join_planes<0>, join_planes<1>, join_planes<2>, join_planes<3>, join_planes<4>,
                 join_planes<5>, join_planes<6>, join_planes<7>, join_planes<8>};
 
@@ -64,7 +64,7 @@ void append_numbers(std::vector<std::uint8_t>& bytes, std::span<const std::int64
 }
 
 bool take_numbers(std::span<const std::uint8_t>& bytes, std::span<std::int64_t> values) {
-  if (bytes.empty() || bytes[0] > kMostPlanes) return false;
+  if (bytes.empty() || bytes[0] > kMaxPlanes) return false;
   const std::size_t planes = bytes[0];
   bytes = bytes.subspan(1);
   if (planes > 0 && bytes.size() / planes < values.size()) return false;

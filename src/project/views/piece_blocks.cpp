@@ -100,16 +100,16 @@ class BlockReader {
   }
 
   bool take_objects(std::span<const std::uint8_t>& bytes, std::span<EdgePiece> pieces) {
-    constexpr std::uint64_t kMostEdges = std::uint64_t{1} << 32U;
+    constexpr std::uint64_t kMaxEdges = std::uint64_t{1} << 32U;
     const std::size_t n = pieces.size();
     const std::span object = std::span(ends_).first(n), edge = std::span(edges_).first(n),
                     apart = std::span(apart_).first(n);
     if (!take_numbers(bytes, object) || !take_numbers(bytes, edge) || !take_numbers(bytes, apart))
       return false;
     for (std::size_t i = 0; i < n; ++i) {
-      const auto most = static_cast<std::int64_t>(objects_);
-      if (!is_number(object[i], objects_) || !is_number(edge[i], kMostEdges) || apart[i] <= -most ||
-          apart[i] >= most || !is_number(object[i] + apart[i], objects_))
+      const auto largest = static_cast<std::int64_t>(objects_);
+      if (!is_number(object[i], objects_) || !is_number(edge[i], kMaxEdges) ||
+          apart[i] <= -largest || apart[i] >= largest || !is_number(object[i] + apart[i], objects_))
         return false;
       pieces[i].object = model::ObjectId{static_cast<std::uint32_t>(object[i])};
       pieces[i].edge = static_cast<std::uint32_t>(edge[i]);

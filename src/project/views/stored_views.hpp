@@ -18,7 +18,7 @@
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
-/// Views of a project: what was asked for, and the drawing that was last solved for it.
+/// Views of a project: what was requested, and the drawing that was last solved for it.
 namespace strake::project {
 
 /// How a drawing came to be.

@@ -16,7 +16,7 @@ namespace strake::project {
 namespace {
 
 /// Longer lists of section planes are refused as no view has them.
-constexpr std::uint64_t kMostSections = 16;
+constexpr std::uint64_t kMaxSections = 16;
 
 /// Takes a value of an enumeration whose last one is known.
 template <class Enum>
@@ -86,7 +86,7 @@ hlr::View read_view(BlobReader& in) {
     view.limits = geometry::Box3l{lo, read_vector(in)};
   }
   const std::uint64_t sections = in.number();
-  if (sections > kMostSections) in.refuse("a view has more than 16 sections");
+  if (sections > kMaxSections) in.refuse("a view has more than 16 sections");
   for (std::uint64_t s = 0; s < sections && !in.failed(); ++s) {
     const geometry::Vec3l normal = read_vector(in);
     view.sections.push_back({normal, read_vector(in)});
@@ -164,7 +164,7 @@ hlr::Options read_options(BlobReader& in) {
   sag = read_finite(in);
   culling = in.number() != 0;
   const std::int64_t buckets = in.integer();
-  if (buckets < hlr::Options::kBucketsByData || buckets > hlr::Options::kMostBuckets)
+  if (buckets < hlr::Options::kBucketsByData || buckets > hlr::Options::kMaxBuckets)
     in.refuse("an option has a value that this version does not know");
   else
     bucketing = static_cast<std::int32_t>(buckets);

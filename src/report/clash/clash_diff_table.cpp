@@ -46,7 +46,7 @@ class ResultOrigin {
     std::string_view first = any_file();
     for (const ClashDocument* run : {diff.before, diff.after}) {
       tests_ = tests_ || run->tests.size() > 1;
-      // A file that was renamed is one file, and is told above.
+      // A file that was renamed is one file, and is reported above.
       if (!diff.files.by_label_alone() && !run->objects.empty()) first = run->objects.front().file;
       files_ = files_ || std::ranges::any_of(run->objects, [&](const DocumentObject& o) {
                  return o.file != first;
@@ -84,11 +84,11 @@ struct RowLayout {
 
 /// Returns the layout of rows of which the text behind the names is at most so wide.
 RowLayout layout_of(std::size_t widest, std::size_t width) {
-  constexpr std::size_t kLeast = 8, kChange = 34, kGaps = 6;
+  constexpr std::size_t kMin = 8, kChange = 34, kGaps = 6;
   const auto names = [&](std::size_t taken) {
-    return std::max(kLeast, (width - std::min(width, taken)) / 2);
+    return std::max(kMin, (width - std::min(width, taken)) / 2);
   };
-  if (kGaps + 2 * kLeast + widest > width) return {names(kGaps - 2), false};
+  if (kGaps + 2 * kMin + widest > width) return {names(kGaps - 2), false};
   return {names(kGaps + std::max(kChange, widest)), true};
 }
 
@@ -98,11 +98,11 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
   std::string out = std::string(title) + " (" + std::to_string(list.size()) + ")\n";
   const std::size_t shown = std::min(options.rows, list.size());
   const ResultOrigin origin(diff);
-  std::vector<std::string> said;
+  std::vector<std::string> texts;
   std::size_t widest = 0;
   for (std::size_t i = 0; i < shown; ++i) {
-    said.push_back(change(diff, list[i]) + origin.text(list[i]));
-    widest = std::max(widest, columns_in(said.back()));
+    texts.push_back(change(diff, list[i]) + origin.text(list[i]));
+    widest = std::max(widest, columns_in(texts.back()));
   }
   const RowLayout layout = layout_of(widest, options.width);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -111,7 +111,7 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
     const std::string names = "  " + fit_to_columns(label(run.a(r)), layout.names) + "  " +
                               fit_to_columns(label(run.b(r)), layout.names);
     out += layout.beside ? names + "  " : ended(names) + "      ";
-    out += said[i] + "\n";
+    out += texts[i] + "\n";
     const bool same_reason = i > 0 && list[i].why == list[i - 1].why;
     if (!list[i].why.empty() && !same_reason)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";

@@ -109,8 +109,8 @@ FileMap map_of(const FileMatches& files, const ClashDocument& before, const Clas
 }
 
 Result<FileMatches> match_files(const ClashDocument& before, const ClashDocument& after,
-                                std::span<const std::string> asked) {
-  return match_documents(before, after, asked, labels_of, files_of);
+                                std::span<const std::string> given_pairs) {
+  return match_documents(before, after, given_pairs, labels_of, files_of);
 }
 
 }  // namespace strake::report

@@ -30,7 +30,7 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-/// Appends the attributes that are asked for and that the object states.
+/// Appends the attributes that are requested and that the object states.
 void attributes(std::string& out, const ClashContents& contents, model::ObjectId id) {
   out += ", \"attributes\": {";
   bool first = true;
@@ -163,7 +163,7 @@ void region_list(std::string& out, const Report& test, std::string_view name, st
 /// Appends how many separate regions the two meet in, and the worst of several; those that a rule
 /// allows apart.
 void regions(std::string& out, const Report& test, const Pair& p) {
-  if (test.options.engine.most_regions > 0) {
+  if (test.options.engine.max_regions > 0) {
     out += ", \"region_count\": ";
     out += p.regions == 0 ? "null" : std::to_string(p.regions);
   }

@@ -87,9 +87,9 @@ template <class Placed>
 template <class Placed>
 [[nodiscard]] bool is_one_place(std::span<Placed> cluster, double same_mm) {
   for (std::size_t k = 0; k < kPlaceCoordinates; ++k) {
-    const auto [least, most] =
+    const auto [least, largest] =
         std::ranges::minmax(cluster, {}, [k](const Placed& p) { return p.at[k]; });
-    if (most.at[k] - least.at[k] > same_mm) return false;
+    if (largest.at[k] - least.at[k] > same_mm) return false;
   }
   return true;
 }

@@ -24,8 +24,8 @@ auto objects_of(const DecidedResult& r) { return std::pair(r.a, r.b); }
 
 DecisionStatus current_status(const DecidedResult* decided) {
   if (decided == nullptr) return DecisionStatus::undecided;
-  const DecisionStatus said = decided->decision->status;
-  if (decided->reopened == Reopened::no || said < DecisionStatus::approved) return said;
+  const DecisionStatus status = decided->decision->status;
+  if (decided->reopened == Reopened::no || status < DecisionStatus::approved) return status;
   return decided->reopened == Reopened::found_again ? DecisionStatus::undecided
                                                     : DecisionStatus::active;
 }

@@ -17,19 +17,19 @@ Error column_error(const std::string& message, const std::string& name) {
 
 /// Returns the headings of a file, for a person.
 std::string headings_of(const CsvRecord& head) {
-  constexpr std::size_t kMostNamed = 8;
+  constexpr std::size_t kMaxNamed = 8;
   std::string text;
-  for (std::size_t c = 0; c < std::min(head.cells.size(), kMostNamed); ++c)
+  for (std::size_t c = 0; c < std::min(head.cells.size(), kMaxNamed); ++c)
     text += (c > 0 ? ", " : "") + in_quotes_cut(cell_text(head.cells[c]));
-  return head.cells.size() > kMostNamed ? text + " …" : text;
+  return head.cells.size() > kMaxNamed ? text + " …" : text;
 }
 
 }  // namespace
 
 std::string in_quotes_cut(std::string_view text) {
-  constexpr std::size_t kMostBytes = 60;
+  constexpr std::size_t kMaxBytes = 60;
   std::string_view rest = text;
-  while (!rest.empty() && text.size() - rest.size() < kMostBytes) (void)take_character(rest);
+  while (!rest.empty() && text.size() - rest.size() < kMaxBytes) (void)take_character(rest);
   const std::string_view shown = text.substr(0, text.size() - rest.size());
   return rest.empty() ? in_quotes(text) : in_quotes(std::string(shown) + "…");
 }

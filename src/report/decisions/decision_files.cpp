@@ -100,11 +100,11 @@ void for_each_reading(const std::string& text, Visit&& visit) {
     if (at > 0) visit(text.substr(0, at), text.substr(at + 1));
 }
 
-/// Adds the former names that are asked for and that a file without the columns of files cannot
+/// Adds the former names that are requested and that a file without the columns of files cannot
 /// know.
 void add_given_names(FileContentsByLabel& former, const FileContentsByLabel& today,
-                     std::span<const std::string> asked) {
-  for (const std::string& text : asked)
+                     std::span<const std::string> given_pairs) {
+  for (const std::string& text : given_pairs)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {
       if (today.contains(is)) former.try_emplace(was);
     });
@@ -122,15 +122,16 @@ bool is_in_force(const std::string& text, const FileContentsByLabel& former,
   return has_new && !has_old;
 }
 
-/// Leaves out the new names of files that are asked for, NEW of OLD=NEW: rows that have one are
+/// Leaves out the new names of files that are requested, NEW of OLD=NEW: rows that have one are
 /// those of a run that did not know of it. A name that is OLD of another text is that of another
 /// file.
-void leave_out_new_names(std::span<const std::string> asked, FileContentsByLabel& former) {
+void leave_out_new_names(std::span<const std::string> given_pairs, FileContentsByLabel& former) {
   const auto is_old_name = [&](std::string_view label) {
-    return std::ranges::any_of(
-        asked, [&](const std::string& text) { return text.starts_with(std::string(label) + "="); });
+    return std::ranges::any_of(given_pairs, [&](const std::string& text) {
+      return text.starts_with(std::string(label) + "=");
+    });
   };
-  for (const std::string& text : asked)
+  for (const std::string& text : given_pairs)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {
       if (former.contains(was) && !is_old_name(is)) former.erase(is);
     });
@@ -146,12 +147,12 @@ bool names_all_files(const DecisionFile& decided) {
 
 Result<DecidedFiles> match_decided_files(const clash::Findings& findings, const model::Model& model,
                                          const DecisionFile& decided,
-                                         std::span<const std::string> asked) {
+                                         std::span<const std::string> given_pairs) {
   FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
-  if (former.empty() || !names_all_files(decided)) add_given_names(former, today, asked);
+  if (former.empty() || !names_all_files(decided)) add_given_names(former, today, given_pairs);
   DecidedFiles files;
   std::vector<std::string> open;
-  for (const std::string& text : asked)
+  for (const std::string& text : given_pairs)
     (is_in_force(text, former, today) ? files.in_force : open).push_back(text);
   leave_out_new_names(open, former);
   RunFiles before = files_of(std::move(former));

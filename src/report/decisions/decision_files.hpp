@@ -28,7 +28,7 @@ struct DecidedFiles {
 [[nodiscard]] Result<DecidedFiles> match_decided_files(const clash::Findings& findings,
                                                        const model::Model& model,
                                                        const DecisionFile& decided,
-                                                       std::span<const std::string> asked);
+                                                       std::span<const std::string> given_pairs);
 
 /// Ids of objects by the labels of their files.
 using IdsByFile = std::map<std::string_view, std::set<std::string_view>>;

@@ -43,7 +43,7 @@ bool interchangeable(const Items rows, const Items results) {
          std::ranges::all_of(results, [&](const auto& p) { return found(p) == found(results[0]); });
 }
 
-/// Gives the results of a cluster the rows in it, where it can be told which is whose.
+/// Gives the results of a cluster the rows in it, where it can be known which is whose.
 void pair_up(const Items cluster) {
   std::ranges::sort(cluster, {}, [](const PlacedItem& p) { return std::pair(p.is_after, p.key); });
   const auto second = std::ranges::find(cluster, true, &PlacedItem::is_after);

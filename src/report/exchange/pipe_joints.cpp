@@ -22,7 +22,7 @@ using geometry::Vec3d;
 /// Cosine of the 30 degrees that two axes in line may differ by.
 constexpr double kInLine = 0.8660254037844386;
 /// By so much the axes of two pipes may miss each other, beside what the test takes for touching.
-constexpr double kMissMm = 1;
+constexpr double kJointGapMm = 1;
 
 /// A round end of an object, in the model's millimetres.
 struct RoundEnd {
@@ -185,7 +185,7 @@ Result<std::vector<PipeJoint>> pipe_joints(const ClashContents& contents,
         const clash::Report& test = contents.findings.tests[contacts[i].test];
         const clash::Pair& pair = test.pairs[contacts[i].pair];
         const clash::Tolerances& t = test.options.tolerances;
-        const double within = t.touch_gap_mm + t.touch_overlap_mm + kMissMm;
+        const double within = t.touch_gap_mm + t.touch_overlap_mm + kJointGapMm;
         return PairJoints(contacts[i], pair, within).of(ends.of(pair.a), ends.of(pair.b));
       });
   if (!of_contacts) return of_contacts.error();

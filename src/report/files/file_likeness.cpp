@@ -93,8 +93,8 @@ bool has_object(const RunFiles& run, const FileContents& file, std::string_view 
 
 bool may_have_most(const RunFiles& run, const FileContents& file,
                    const std::vector<std::string>& ids) {
-  constexpr std::size_t kLookedAt = 64;
-  const std::size_t step = std::max<std::size_t>(1, ids.size() / kLookedAt);
+  constexpr std::size_t kSampledIds = 64;
+  const std::size_t step = std::max<std::size_t>(1, ids.size() / kSampledIds);
   for (std::size_t i = 0; i < ids.size(); i += step)
     if (has_object(run, file, ids[i])) return true;
   return false;

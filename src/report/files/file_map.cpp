@@ -49,7 +49,7 @@ void FileMap::group(const FileMatches& files) {
   }
 }
 
-/// Returns the one file of the other run that has an object, as far as that can be told; empty:
+/// Returns the one file of the other run that has an object, as far as that can be known; empty:
 /// none or several.
 std::string_view FileMap::holder(RunSide run, std::string_view label, std::string_view id) const {
   const auto at = links(run).find(label);

@@ -48,8 +48,8 @@ class FileMatcher {
         sought_before_(before.files.size()),
         sought_after_(after.files.size()) {}
 
-  Status take_given_pairs(std::span<const FilePair> asked) {
-    for (const FilePair& pair : asked) {
+  Status take_given_pairs(std::span<const FilePair> given_pairs) {
+    for (const FilePair& pair : given_pairs) {
       const Result<std::size_t> x = find_given_file(before_, sought_before_, pair.before, "old");
       if (!x) return x.error();
       const Result<std::size_t> y = find_given_file(after_, sought_after_, pair.after, "new");
@@ -241,9 +241,9 @@ bool FileMatches::by_label_alone() const {
 }
 
 Result<FileMatches> match_files(const RunFiles& before, const RunFiles& after,
-                                std::span<const FilePair> asked) {
+                                std::span<const FilePair> given_pairs) {
   FileMatcher matcher(before, after);
-  if (const Status status = matcher.take_given_pairs(asked); !status) return status.error();
+  if (const Status status = matcher.take_given_pairs(given_pairs); !status) return status.error();
   matcher.take_equal_labels();
   matcher.take_renamed();
   matcher.take_parts();

@@ -15,7 +15,7 @@ namespace strake::report {
 namespace {
 
 /// The most files that a line names.
-constexpr std::size_t kMostNamed = 8;
+constexpr std::size_t kMaxNamed = 8;
 
 std::string_view relation_name(FileRelation relation) {
   switch (relation) {
@@ -64,10 +64,10 @@ std::string described(const FileMatch& m) {
 template <class Item, class Describe>
 std::string joined(const std::vector<Item>& items, std::string_view between, Describe&& describe) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(items.size(), kMostNamed); ++i)
+  for (std::size_t i = 0; i < std::min(items.size(), kMaxNamed); ++i)
     text += (i > 0 ? std::string(between) : std::string()) + describe(items[i]);
-  if (items.size() > kMostNamed)
-    text += " … and " + std::to_string(items.size() - kMostNamed) + " more";
+  if (items.size() > kMaxNamed)
+    text += " … and " + std::to_string(items.size() - kMaxNamed) + " more";
   return text;
 }
 
@@ -106,12 +106,12 @@ std::string file_matches_text(const FileMatches& files) {
 }
 
 void append_file_matches(std::string& out, const FileMatches& files) {
-  const auto told = those_of(files, {FileRelation::requested, FileRelation::renamed,
-                                     FileRelation::split, FileRelation::merged});
-  if (!told.empty()) {
+  const auto listed = those_of(files, {FileRelation::requested, FileRelation::renamed,
+                                       FileRelation::split, FileRelation::merged});
+  if (!listed.empty()) {
     out += ",\n";
     append_list(
-        out, "files_matched", told,
+        out, "files_matched", listed,
         [&](const FileMatch& m) {
           out += "{\"old\": ";
           append_json(out, m.before);

@@ -42,8 +42,8 @@ bool is_number(std::string_view text) {
 
 }  // namespace
 
-JsonReader::JsonReader(std::istream& in, int most_depth)
-    : in_(in), buffer_(kBufferBytes), most_depth_(most_depth) {
+JsonReader::JsonReader(std::istream& in, int max_depth)
+    : in_(in), buffer_(kBufferBytes), max_depth_(max_depth) {
   at_ = end_ = buffer_.data();
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (refill() &&
@@ -101,7 +101,7 @@ JsonReader::Kind JsonReader::kind() {
 
 bool JsonReader::open(char bracket, char closing) {
   expect(bracket);
-  if (++depth_ > most_depth_) fail(Fault::What::deep);
+  if (++depth_ > max_depth_) fail(Fault::What::deep);
   if (peek_behind_blanks() != closing) return true;
   ++at_;
   --depth_;

@@ -24,8 +24,8 @@ class JsonReader {
     std::uint64_t line = 0;  ///< counted from 1
   };
 
-  /// Values may be nested `most_depth` deep.
-  JsonReader(std::istream& in, int most_depth);
+  /// Values may be nested `max_depth` deep.
+  JsonReader(std::istream& in, int max_depth);
 
   /// Returns the kind of the value that comes next.
   [[nodiscard]] Kind kind();
@@ -83,7 +83,7 @@ class JsonReader {
   std::uint64_t lines_before_ = 0;  ///< line ends before the buffer
   std::string spilled_;             ///< a value that the buffer does not hold in its final form
   std::string key_;
-  int depth_ = 0, most_depth_;
+  int depth_ = 0, max_depth_;
 };
 
 }  // namespace strake::report

@@ -26,7 +26,7 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-constexpr std::size_t kNumberColumns = 10, kLeastCell = 8;
+constexpr std::size_t kNumberColumns = 10, kMinCell = 8;
 /// The widest bracket that is not shown: the grid alone may account for it, as for BORDERLINE, so d
 /// is known as well as its digits say, and nearly all meshes and primitives have such a bracket.
 constexpr double kUntoldWidthMm = 0.008;
@@ -90,7 +90,7 @@ TableBlock worst_of(const ShownTest& test, clash::Class cls, std::size_t rows, c
   const auto volume = [&](std::size_t i) {
     return sort == clash::SortBy::volume ? report.pairs[i].volume_mm3.value_or(0) : 0;
   };
-  // What came back is told, whatever its depth.
+  // What came back is reported, whatever its depth.
   const auto is_old = [&](std::size_t i) {
     return test.decisions.reopened(report.pairs[i]) == Reopened::no;
   };
@@ -132,8 +132,8 @@ std::array<ClassRows, 3> shares(const ShownTest& test, std::size_t rows) {
     c.listed = listed(test, c.cls);
     c.count -= test.decisions.count_settled([&](const DecidedResult& r) { return r.cls == c.cls; });
   }
-  const auto give = [&](ClassRows& c, std::size_t most) {
-    const std::size_t given = std::min({most, rows, c.listed - c.rows});
+  const auto give = [&](ClassRows& c, std::size_t limit) {
+    const std::size_t given = std::min({limit, rows, c.listed - c.rows});
     c.rows += given;
     rows -= given;
   };
@@ -276,8 +276,8 @@ std::string cell_row(std::string_view cell, const std::array<std::string, 4>& co
 /// Returns the cells of a matrix in which something was found.
 std::string matrix_table(const ShownTest& test, std::size_t width) {
   const Report& report = test.report;
-  constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMost = 40;
-  const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastCell, kMost);
+  constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMax = 40;
+  const std::size_t columns = std::clamp(width - std::min(width, kCounts), kMinCell, kMax);
   std::string out;
   for (const clash::CellReport& c : report.cells) {
     const auto open = [&](std::uint64_t found, clash::Class cls) {

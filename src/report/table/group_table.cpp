@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kClassColumns = 9, kDepthColumns = 10, kGroupIndent = 4;
 /// The least columns for a name, and those by which it stands beside the numbers although it is
 /// wider.
-constexpr std::size_t kLeastGroupName = 8, kLeastBeside = 24;
+constexpr std::size_t kMinGroupName = 8, kMinBeside = 24;
 
 /// A row of the table of groups, or its head: class, numbers and, as it is shown, the name.
 struct GroupRow {
@@ -76,7 +76,7 @@ std::size_t widest_of(const std::vector<std::string>& texts) {
 
 /// Returns what is left of a line, but no less than a name needs.
 std::size_t room_behind(std::size_t taken, std::size_t width) {
-  return std::max(width - std::min(width, taken), kLeastGroupName);
+  return std::max(width - std::min(width, taken), kMinGroupName);
 }
 
 /// Takes the last three numbers, which are the place, out of the rows and puts them before the
@@ -100,7 +100,7 @@ bool fit_names(std::vector<GroupRow>& rows, std::vector<std::string>& names,
   const std::size_t taken = aligned(rows).front().size();
   const std::size_t room = width - std::min(width, taken);
   const std::size_t wanted = std::max(widest_of(names), columns_in(heading));
-  if (room >= std::min(wanted, kLeastBeside)) {
+  if (room >= std::min(wanted, kMinBeside)) {
     names = shorten_distinctly(names, room_behind(taken, width));
     return true;
   }

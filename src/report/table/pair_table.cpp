@@ -13,7 +13,7 @@
 namespace strake::report {
 namespace {
 
-constexpr std::size_t kLeastName = 8, kMostSource = 24, kIndent = 4;
+constexpr std::size_t kMinName = 8, kMaxSource = 24, kIndent = 4;
 constexpr std::string_view kGap = "  ", kBothNames = "a, and b below it";
 
 /// Where the two names of a row stand.
@@ -91,7 +91,7 @@ class PairTable {
           sources.push_back(printable(side.source));
         }
     lead_ = common_lead(names);
-    sources = shorten_distinctly(sources, kMostSource);
+    sources = shorten_distinctly(sources, kMaxSource);
     std::size_t side = 0;
     for (const PairBlock& block : blocks_)
       for (const PairRow& row : block.rows) {
@@ -144,7 +144,7 @@ class PairTable {
     if (numbers_ + source_ + std::max({a, b, kBothNames.size()}) <= head_.width) return;
     stand_ = NameLayout::below;
     const std::size_t taken = kIndent + source_;
-    cut_names(head_.width > taken + kLeastName ? head_.width - taken : kLeastName);
+    cut_names(head_.width > taken + kMinName ? head_.width - taken : kMinName);
   }
 
   void cut_names(std::size_t room) {

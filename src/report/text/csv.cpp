@@ -27,7 +27,7 @@ std::size_t blank_length(std::string_view text) {
 
 /// Whether a spreadsheet takes a text for a formula; it takes the full-width signs of East Asian
 /// keyboards for the plain ones.
-bool looks_like_formula(std::string_view text) {
+bool is_like_formula(std::string_view text) {
   constexpr std::string_view kTabsAndBreaks = "\t\r\n";
   if (!text.empty() && kTabsAndBreaks.find(text.front()) != std::string_view::npos) return true;
   while (const std::size_t blank = blank_length(text)) text.remove_prefix(blank);
@@ -41,7 +41,7 @@ bool looks_like_formula(std::string_view text) {
 
 void append_csv(std::string& out, std::string_view raw) {
   std::string text = valid_utf8(raw);
-  if (looks_like_formula(text)) text.insert(0, 1, '\'');
+  if (is_like_formula(text)) text.insert(0, 1, '\'');
   // Where the comma is the decimal point, spreadsheets split cells at semicolons, or at tabs.
   if (text.find_first_of(",;\t\"\r\n") == std::string::npos) {
     out += text;
@@ -56,7 +56,7 @@ void append_csv(std::string& out, std::string_view raw) {
 }
 
 std::string_view without_apostrophe(std::string_view text) {
-  const bool is_ours = text.starts_with('\'') && looks_like_formula(text.substr(1));
+  const bool is_ours = text.starts_with('\'') && is_like_formula(text.substr(1));
   return is_ours ? text.substr(1) : text;
 }
 

@@ -19,7 +19,7 @@ void append_csv(std::string& out, std::string_view raw);
 /// Returns a text without the apostrophe that append_csv() put before it, if it did.
 [[nodiscard]] std::string_view without_apostrophe(std::string_view text);
 
-/// Appends the cells of a line one by one, in the form that is asked for.
+/// Appends the cells of a line one by one, in the form that is requested.
 class CsvRow {
  public:
   /// Appends a number to a text, with a decimal point.

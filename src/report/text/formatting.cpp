@@ -57,8 +57,8 @@ bool append_mm_quickly(std::string& out, double mm) {
 /// Returns a whole number that fits; the outermost where it does not, 0 where it is none.
 std::int64_t saturated(double whole) {
   if (std::isnan(whole)) return 0;
-  constexpr double kMost = 9223372036854774784.0;  // the largest double below 2^63
-  return static_cast<std::int64_t>(std::clamp(whole, -kMost, kMost));
+  constexpr double kMax = 9223372036854774784.0;  // the largest double below 2^63
+  return static_cast<std::int64_t>(std::clamp(whole, -kMax, kMax));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace strake::report {
 namespace {
 
-constexpr std::size_t kLeastLead = 4;
+constexpr std::size_t kMinLead = 4;
 constexpr std::string_view::size_type kNowhere = std::string_view::npos;
 
 /// Returns where the path of a name begins; kNowhere if it has none.
@@ -43,7 +43,7 @@ std::string common_lead(std::span<const std::string_view> names) {
     lead = common_beginning(lead, path);
   }
   const std::size_t end = lead.rfind('/');
-  if (!differ || end == kNowhere || end < kLeastLead) return {};
+  if (!differ || end == kNowhere || end < kMinLead) return {};
   return std::string(lead.substr(0, end));
 }
 
@@ -64,16 +64,16 @@ std::vector<std::string> shorten_distinctly(const std::vector<std::string>& text
     return columns_in(text) > columns ? fit_to_columns(text, columns) : text;
   };
   /// The text that looks so; null where there are several.
-  std::map<std::string, const std::string*> looks;
+  std::map<std::string, const std::string*> shown_as;
   for (const std::string& text : texts) {
-    const auto [at, is_new] = looks.try_emplace(cut(text), &text);
+    const auto [at, is_new] = shown_as.try_emplace(cut(text), &text);
     if (!is_new && at->second != nullptr && *at->second != text) at->second = nullptr;
   }
   std::vector<std::string> out;
   out.reserve(texts.size());
   for (const std::string& text : texts) {
     const std::string shown = cut(text);
-    out.push_back(looks.at(shown) == nullptr ? text : shown);
+    out.push_back(shown_as.at(shown) == nullptr ? text : shown);
   }
   return out;
 }

@@ -160,11 +160,11 @@ namespace {
 using geometry::Box3l;
 
 /// The most pairs of boxes that overlap, 8 bytes each.
-constexpr std::uint64_t kMostPairs = std::uint64_t{1} << 28U;
+constexpr std::uint64_t kMaxPairs = std::uint64_t{1} << 28U;
 
 auto key(const ClassedPiece& p) {
-  const auto& [least, most] = std::minmax(p.piece->a, p.piece->b);
-  return std::tuple(Vec3l(least), Vec3l(most), p.cls);
+  const auto& [least, largest] = std::minmax(p.piece->a, p.piece->b);
+  return std::tuple(Vec3l(least), Vec3l(largest), p.cls);
 }
 
 Box3l box_of(const ViewPiece& piece, std::int64_t margin) {
@@ -223,7 +223,7 @@ Result<std::vector<PieceCoverage>> find_coverage(std::span<const ClassedPiece> p
   }
   const auto tree = geometry::SceneBvh::build(items, context);
   if (!tree) return tree.error();
-  const auto pairs = geometry::overlapping_box_pairs(*tree, context, kMostPairs);
+  const auto pairs = geometry::overlapping_box_pairs(*tree, context, kMaxPairs);
   if (!pairs) return pairs.error();
   auto covers = parallel::collect<PieceCoverage>(
       context, {.name = "lines at one place", .n = pairs->size(), .grain = 1024},

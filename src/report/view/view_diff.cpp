@@ -8,13 +8,13 @@
 #include <string_view>
 
 #include "report/files/file_map.hpp"
+#include "report/view/drawn_ids.hpp"
 #include "report/view/line_match.hpp"
-#include "report/view/view_files.hpp"
 
 namespace strake::report {
 namespace {
 
-constexpr double kMostToleranceMm = 1e6;
+constexpr double kMaxToleranceMm = 1e6;
 
 /// Whether a setting of a view says what of it is drawn, not from where.
 bool may_differ(std::string_view setting) {
@@ -72,15 +72,15 @@ void number_objects(ViewDiff& diff) {
 /// "2 (valve, pump)": how many objects a drawing left out, and which of them the other did not.
 std::string far_objects_text(const ViewDiff& diff, const std::set<std::uint32_t>& own,
                              const std::set<std::uint32_t>& other) {
-  constexpr std::size_t kMostNamed = 3;
+  constexpr std::size_t kMaxNamed = 3;
   std::string names;
   std::size_t alone = 0;
   for (const std::uint32_t number : own) {
-    if (other.contains(number) || ++alone > kMostNamed) continue;
+    if (other.contains(number) || ++alone > kMaxNamed) continue;
     const ViewObject& object = *diff.objects[number];
     names += (names.empty() ? "" : ", ") + (object.name.empty() ? object.id : object.name);
   }
-  if (alone > kMostNamed) names += ", …";
+  if (alone > kMaxNamed) names += ", …";
   return std::to_string(own.size()) + (names.empty() ? "" : " (" + names + ")");
 }
 
@@ -189,7 +189,7 @@ bool ViewDiff::differs(bool visible_only) const {
 
 Result<ViewDiff> compare(const ViewDocument& before, const ViewDocument& after,
                          const ViewDiffOptions& options, const parallel::Context& context) {
-  if (!(options.tolerance_mm >= 0 && options.tolerance_mm <= kMostToleranceMm))
+  if (!(options.tolerance_mm >= 0 && options.tolerance_mm <= kMaxToleranceMm))
     return Error{ErrorCode::usage, "the tolerance is not a length below a kilometre", "tolerance",
                  "2um is what rounding makes of one line"};
   ViewDiff diff;

@@ -44,7 +44,7 @@ bool has_ink(LineState state) { return state == LineState::visible || is_hidden(
 
 /// Returns what of an interval is seen on paper: what became visible or hidden is new there, what
 /// no longer is either is gone.
-std::optional<LineChange> seen_as(const ViewDiff& diff, const DiffInterval& s) {
+std::optional<LineChange> visible_change(const ViewDiff& diff, const DiffInterval& s) {
   const bool is = has_ink(diff.piece(s).state);
   if (s.change != LineChange::changed) return is ? std::optional(s.change) : std::nullopt;
   const bool was = has_ink(s.was.state);
@@ -122,7 +122,7 @@ class DiffPicture {
   void find_frame() {
     hi_ = {diff_.after->width_mm, diff_.after->height_mm};
     for (const DiffInterval& s : diff_.intervals) {
-      if (!seen_as(diff_, s)) continue;
+      if (!visible_change(diff_, s)) continue;
       for (const float t : {s.from, s.to}) {
         const SvgPoint p = paper(s, t);
         lo_ = {std::min(lo_.x, p.x), std::min(lo_.y, p.y)};
@@ -163,7 +163,7 @@ class DiffPicture {
     bool open = false;
     std::optional<std::uint32_t> object;
     for (const DiffInterval& s : diff_.intervals) {
-      if (seen_as(diff_, s) != style.change || dashed(diff_, s) != hidden) continue;
+      if (visible_change(diff_, s) != style.change || dashed(diff_, s) != hidden) continue;
       if (!open)
         out += fmt::format(
             "<g inkscape:groupmode=\"layer\" inkscape:label=\"{0} {1}\" id=\"{0}-{1}\" "

@@ -67,22 +67,22 @@ std::string objects_text(const ViewDiff& diff, std::size_t names, std::size_t ro
 
 /// Says which lines are gone and new because their objects were left out as far from all others.
 std::string left_out_text(const ViewDiff& diff) {
-  const auto said = [](std::string_view why, const LineCount& count) {
+  const auto phrase = [](std::string_view why, const LineCount& count) {
     return count.lines == 0
                ? std::string()
                : fmt::format("{} their objects out as far from all others: {} ({:.3f} m)\n", why,
                              count.lines, count.length_mm / 1000);
   };
-  return said("gone because the newer drawing leaves", diff.gone_left_out) +
-         said("new because the older drawing left", diff.new_left_out);
+  return phrase("gone because the newer drawing leaves", diff.gone_left_out) +
+         phrase("new because the older drawing left", diff.new_left_out);
 }
 
 }  // namespace
 
 std::string view_diff_table(const ViewDiff& diff, const TableOptions& options) {
-  constexpr std::size_t kNumbers = 12 * kLineChanges + 2, kLeast = 26, kMost = 60;
+  constexpr std::size_t kNumbers = 12 * kLineChanges + 2, kMin = 26, kMax = 60;
   const std::size_t names =
-      std::clamp(options.width > kNumbers ? options.width - kNumbers : kLeast, kLeast, kMost);
+      std::clamp(options.width > kNumbers ? options.width - kNumbers : kMin, kMin, kMax);
   std::string out = settings_text(diff);
   if (!diff.by_class.empty()) {
     out += head("classes, lines", names);

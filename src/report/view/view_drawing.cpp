@@ -105,10 +105,10 @@ void read_counts(const ViewRest& rest, drawing::NeutralDrawing& drawing) {
 /// Writers spend work and memory by the size of the sheet and of what lies on it: no run wrote a
 /// sheet of such a shape, or lines that are drawn and lie beside it.
 void check_sheet(const drawing::NeutralDrawing& drawing) {
-  constexpr double kMostSlender = 1e5;
+  constexpr double kMaxSlender = 1e5;
   const double width = drawing.sheet.width_mm, height = drawing.sheet.height_mm;
   const double larger = std::max(width, height);
-  if (larger > drawing::kFarthestPaperMm || larger > kMostSlender * std::min(width, height))
+  if (larger > drawing::kFarthestPaperMm || larger > kMaxSlender * std::min(width, height))
     throw contradiction("sheet", "is of a size that no drawing has");
   const auto lies_near = [&](const drawing::PaperPoint& p) {
     return p.x >= -larger && p.y >= -larger && p.x <= 2 * larger && p.y <= 2 * larger;

@@ -23,8 +23,8 @@ namespace {
 using geometry::Vec3l;
 using Kind = JsonReader::Kind;
 
-constexpr int kMostSettingDepth = 4;
-constexpr std::size_t kMostViewSections = 16;
+constexpr int kMaxSettingDepth = 4;
+constexpr std::size_t kMaxViewSections = 16;
 
 std::int64_t micrometres(double mm) {
   return static_cast<std::int64_t>(std::llround(mm * geometry::kGridPerMm));
@@ -45,7 +45,7 @@ class ViewSetting {
   template <class Take>
   auto read(Take&& take) const {
     std::istringstream in(text_);
-    JsonReader json(in, kMostSettingDepth);
+    JsonReader json(in, kMaxSettingDepth);
     return take(json, DocumentFields(json));
   }
   [[nodiscard]] std::string text() const {
@@ -72,8 +72,8 @@ class ViewSetting {
   }
 
   [[nodiscard]] static Vec3l whole_vector(DocumentFields fields, std::string_view key) {
-    constexpr double kMostOfDirection = 1U << 20U;
-    const auto v = fields.numbers<3>([] { return std::string("the view"); }, key, kMostOfDirection);
+    constexpr double kMaxOfDirection = 1U << 20U;
+    const auto v = fields.numbers<3>([] { return std::string("the view"); }, key, kMaxOfDirection);
     for (const double component : v)
       if (component != std::floor(component))
         throw wrong_type("the view", key, "direction in whole numbers");
@@ -117,7 +117,7 @@ std::vector<hlr::Section> read_sections(JsonReader& json, DocumentFields fields)
       else
         json.skip();
     });
-    if (sections.size() == kMostViewSections)
+    if (sections.size() == kMaxViewSections)
       throw DocumentFault{"the view", "has more than 16 sections"};
     sections.push_back(section);
   });

@@ -9,8 +9,8 @@
 namespace strake::report {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kMostEntries = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint64_t kMaxBytes = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kMaxEntries = std::numeric_limits<std::uint16_t>::max();
 /// The last piece of every file: a block without bytes that says that it is the last.
 constexpr std::string_view kLastPiece("\x03\x00", 2);
 
@@ -37,16 +37,16 @@ Result<DeflatedPiece> deflate_piece(std::string_view text) {
   // On rows of results the next level takes two thirds longer for a twentieth fewer bytes, the
   // third a third less time for an eighth more.
   constexpr int kLevel = 5, kRaw = -15, kMemory = 8;
-  constexpr std::size_t kMostAtOnce = std::size_t{1} << 30U;
+  constexpr std::size_t kMaxAtOnce = std::size_t{1} << 30U;
   DeflatedPiece piece;
   piece.size = text.size();
   z_stream stream{};
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kRaw, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     return no_memory_to_deflate();
   uLong crc = crc32(0, nullptr, 0);
-  std::string room(std::min<std::size_t>(text.size() / 4 + 1024, kMostAtOnce), '\0');
+  std::string room(std::min<std::size_t>(text.size() / 4 + 1024, kMaxAtOnce), '\0');
   do {
-    const std::string_view taken = text.substr(0, kMostAtOnce);
+    const std::string_view taken = text.substr(0, kMaxAtOnce);
     text.remove_prefix(taken.size());
     // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast,cppcoreguidelines-pro-type-const-cast):
     // zlib's own word for bytes, which it reads through a pointer that is not const.
@@ -119,7 +119,7 @@ void ZipWriter::append_facts(std::string& out, std::string_view name, const Entr
 /// Puts an entry that began there into the directory.
 Status ZipWriter::enter(std::string_view name, const Entry& entry, std::uint64_t at) {
   constexpr std::uint64_t kFolder = 16;
-  if (entry.size >= kMostBytes || written_ >= kMostBytes || entries_ >= kMostEntries)
+  if (entry.size >= kMaxBytes || written_ >= kMaxBytes || entries_ >= kMaxEntries)
     return too_large();
   directory_ += "PK\x01\x02";
   append_little(directory_, 20, 2);
@@ -188,7 +188,7 @@ Status ZipWriter::add_folder(std::string_view name) {
 
 Status ZipWriter::finish() {
   const std::uint64_t at = written_;
-  if (at + directory_.size() >= kMostBytes) return too_large();
+  if (at + directory_.size() >= kMaxBytes) return too_large();
   std::string last("PK\x05\x06");
   append_little(last, 0, 4);
   append_little(last, entries_, 2);

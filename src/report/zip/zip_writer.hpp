@@ -57,7 +57,7 @@ class ZipWriter {
   [[nodiscard]] Status add_file(std::string_view name, const PackedFile& file);
   /// Packs a file and adds it. Errors: memory, too.
   [[nodiscard]] Status add_file(std::string_view name, std::string_view bytes);
-  /// Adds an entry for a folder, whose name ends with '/': readers of some programs ask for it.
+  /// Adds an entry for a folder, whose name ends with '/': readers of some programs request it.
   [[nodiscard]] Status add_folder(std::string_view name);
   /// Writes the directory, and with it the end.
   [[nodiscard]] Status finish();

@@ -12,7 +12,7 @@ namespace strake::serve {
 /// where it gives none.
 [[nodiscard]] Result<std::string> make_secret();
 
-/// Whether two texts are equal, in a time that does not tell where they differ.
+/// Whether two texts are equal, in a time that does not show where they differ.
 [[nodiscard]] bool is_secret(std::string_view given, std::string_view secret);
 
 }  // namespace strake::serve

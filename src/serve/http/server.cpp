@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLongestWait{1000};
 /// How long it is until what waits is asked again.
-constexpr std::chrono::milliseconds kUntilAskedAgain{50};
+constexpr std::chrono::milliseconds kPollInterval{50};
 
 /// A request that comes in.
 struct HttpExchange {
@@ -225,7 +225,7 @@ struct Server::State {
   [[nodiscard]] int wait_ms() const {
     MHD_UNSIGNED_LONG_LONG wait = 0;
     const auto longest = static_cast<MHD_UNSIGNED_LONG_LONG>(
-        (waiting.empty() ? kLongestWait : kUntilAskedAgain).count());
+        (waiting.empty() ? kLongestWait : kPollInterval).count());
     if (MHD_get_timeout(daemon, &wait) != MHD_YES) wait = longest;
     return static_cast<int>(std::min(wait, longest));
   }
@@ -236,7 +236,7 @@ struct Server::State {
   RequestHandler* service = nullptr;  ///< while it serves
   std::map<MHD_Connection*, Connection> connections;
   std::set<MHD_Connection*> waiting;  ///< suspended
-  Clock::time_point asked_again;      ///< when what waits was resumed last
+  Clock::time_point last_poll;        ///< when what waits was resumed last
 };
 
 Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -282,9 +282,9 @@ Status Server::serve(RequestHandler& service, const std::stop_token& stop) {
     if (::poll(files.data(), files.size(), state_->wait_ms()) < 0 && errno != EINTR)
       return Error{ErrorCode::internal, "the server cannot wait for its clients", {}, {}};
     const Clock::time_point begun = Clock::now();
-    if (begun - state_->asked_again >= kUntilAskedAgain) {
+    if (begun - state_->last_poll >= kPollInterval) {
       state_->resume_waiting();
-      state_->asked_again = begun;
+      state_->last_poll = begun;
     }
     if (MHD_run(state_->daemon) != MHD_YES)
       return Error{ErrorCode::internal, "the server cannot go on", {}, {}};

@@ -18,9 +18,9 @@ namespace {
 
 using report::DecisionStatus;
 
-constexpr int kMostDepth = 3;
+constexpr int kMaxDepth = 3;
 /// Of a comment or a name. It is stored with each clash, of which a request names thousands.
-constexpr std::size_t kMostTextBytes = std::size_t{64} << 10U;
+constexpr std::size_t kMaxTextBytes = std::size_t{64} << 10U;
 /// Numbers of a row that a double holds exactly.
 constexpr double kGreatestNumber = 9007199254740992.0;
 
@@ -38,19 +38,19 @@ class RequestReader {
   explicit RequestReader(report::JsonReader& json) : json_(json) {}
 
   void take(std::string_view name) {
-    if (!seen_.insert(std::string(name)).second) return reject("the request has a member twice");
-    if (name == "run") return number(request_.seen.run, "run");
-    if (name == "event") return number(request_.seen.event, "event");
+    if (!members_.insert(std::string(name)).second) return reject("the request has a member twice");
+    if (name == "run") return number(request_.known.run, "run");
+    if (name == "event") return number(request_.known.event, "event");
     if (name == "keys") return keys();
     if (name == "status") return status();
-    if (name == "assignee") return said(request_.decision.assignee, "assignee");
-    if (name == "comment") return said(request_.decision.comment, "comment");
+    if (name == "assignee") return take_text(request_.decision.assignee, "assignee");
+    if (name == "comment") return take_text(request_.decision.comment, "comment");
     reject("the request has a member that has no meaning");
   }
 
   Result<DecisionRequest> finish() {
     for (const char* const needed : {"run", "event", "keys"})
-      if (!seen_.contains(needed)) fail(std::string("the request has no ") + needed);
+      if (!members_.contains(needed)) fail(std::string("the request has no ") + needed);
     if (request_.keys.empty()) fail("no clash is named");
     const project::ClashDecision& decision = request_.decision;
     if (!decision.status && !decision.assignee && !decision.comment)
@@ -83,9 +83,9 @@ class RequestReader {
     value = json_.text();
   }
 
-  void said(std::optional<std::string>& value, const char* name) {
+  void take_text(std::optional<std::string>& value, const char* name) {
     text(value, name);
-    if (value && value->size() > kMostTextBytes)
+    if (value && value->size() > kMaxTextBytes)
       fail("the " + std::string(name) + " is longer than 64 KiB");
   }
 
@@ -108,7 +108,7 @@ class RequestReader {
 
   report::JsonReader& json_;
   DecisionRequest request_;
-  std::set<std::string> seen_;
+  std::set<std::string> members_;
   std::optional<std::string> fault_;
 };
 
@@ -116,7 +116,7 @@ class RequestReader {
 
 Result<DecisionRequest> read_decision_request(std::string_view text) {
   std::istringstream in{std::string(text)};
-  report::JsonReader json(in, kMostDepth);
+  report::JsonReader json(in, kMaxDepth);
   RequestReader reader(json);
   try {
     if (json.kind() != report::JsonReader::Kind::object)

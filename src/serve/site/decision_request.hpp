@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "project/results/clash_queries.hpp"
-#include "project/review/decide_as_seen.hpp"
+#include "project/review/decide_if_unchanged.hpp"
 #include "strake/core/result.hpp"
 
 namespace strake::serve {
@@ -15,7 +15,7 @@ namespace strake::serve {
 struct DecisionRequest {
   std::vector<std::string> keys;
   project::ClashDecision decision;  ///< `by` and `at` are left to who takes it
-  project::SeenState seen;
+  project::KnownState known;
 };
 
 /// Reads the JSON of a request: {"run", "event", "keys", and at least one of "status", "assignee"

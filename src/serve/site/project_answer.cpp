@@ -37,25 +37,25 @@ void append_clash(std::string& out, const project::ListedClash& clash) {
   out += '}';
 }
 
-/// Which clashes are told, by the ids of their rows.
+/// Which clashes are reported, by the ids of their rows.
 struct ReportedChanges {
   std::vector<std::int64_t> clashes;
-  bool too_many = false;  ///< more changed than is told
+  bool too_many = false;  ///< more changed than is reported
 };
 
-/// What the page itself has just decided is told however much it is.
+/// What the page itself has just decided is reported however much it is.
 Result<ReportedChanges> changes_for_page(project::Database& database, std::int64_t event,
-                                         const project::DecisionsAsSeen* done) {
+                                         const project::DecideOutcome* done) {
   std::vector<std::int64_t> own;
   if (done != nullptr) own = done->decided;
   std::ranges::sort(own);
   own.erase(std::ranges::unique(own).begin(), own.end());
   const Result<std::vector<std::int64_t>> changed =
-      project::changed_since(database, event, kMostChanges + 1 + own.size());
+      project::changed_since(database, event, kMaxChanges + 1 + own.size());
   if (!changed) return changed.error();
   std::vector<std::int64_t> others;
   std::ranges::set_difference(*changed, own, std::back_inserter(others));
-  if (others.size() > kMostChanges) return ReportedChanges{std::move(own), true};
+  if (others.size() > kMaxChanges) return ReportedChanges{std::move(own), true};
   std::vector<std::int64_t> all;
   std::ranges::merge(own, others, std::back_inserter(all));
   return ReportedChanges{std::move(all), false};
@@ -71,17 +71,17 @@ HttpStatus status_of(ErrorCode code) {
 }  // namespace
 
 Result<std::string> project_answer(project::Database& database, std::int64_t event,
-                                   const project::DecisionsAsSeen* done) {
-  const Result<project::SeenState> now = project::state_now(database);
+                                   const project::DecideOutcome* done) {
+  const Result<project::KnownState> now = project::current_state(database);
   if (!now) return now.error();
-  const Result<ReportedChanges> told = changes_for_page(database, event, done);
-  if (!told) return told.error();
+  const Result<ReportedChanges> reported = changes_for_page(database, event, done);
+  if (!reported) return reported.error();
   const Result<std::vector<project::ListedClash>> clashes =
-      project::read_clashes(database, told->clashes);
+      project::read_clashes(database, reported->clashes);
   if (!clashes) return clashes.error();
   std::string out = "{\"run\": " + std::to_string(now->run) +
                     ", \"event\": " + std::to_string(now->event) +
-                    ", \"too_many\": " + (told->too_many ? "true" : "false") + ", ";
+                    ", \"too_many\": " + (reported->too_many ? "true" : "false") + ", ";
   report::append_list(out, "clashes", *clashes,
                       [&](const project::ListedClash& clash) { append_clash(out, clash); });
   if (done != nullptr) {

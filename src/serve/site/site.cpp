@@ -91,22 +91,22 @@ std::optional<Answer> Site::answer_or_wait(const Request& request,
     return guarded(is_page ? plain_error_answer(there.error()) : error_answer(there.error()));
   if (is_page) return guarded(page());
   if (request.path == kStatePath) return guarded(state(request));
-  Result<DecisionRequest> asked = read_decision_request(request.body);
-  if (!asked) return guarded(error_answer(asked.error()));
+  Result<DecisionRequest> decision_request = read_decision_request(request.body);
+  if (!decision_request) return guarded(error_answer(decision_request.error()));
   auto begun = project::Transaction::begin_at_once(contents_.database);
   if (!begun) return guarded(error_answer(begun.error()));
-  if (*begun) return guarded(decide(std::move(*asked), std::move(**begun)));
+  if (*begun) return guarded(decide(std::move(*decision_request), std::move(**begun)));
   if (waited < contents_.database.wait()) return std::nullopt;
   return guarded(error_answer(contents_.database.busy()));
 }
 
 Status Site::prepare() {
   if (page_.html) {
-    const Result<project::SeenState> now = project::state_now(contents_.database);
+    const Result<project::KnownState> now = project::current_state(contents_.database);
     if (!now) return now.error();
-    // What people decided since the page asks for.
-    const auto most = static_cast<std::int64_t>(kMostChanges);
-    if (now->run == page_.seen.run && now->event - page_.seen.event < most) return {};
+    // The page requests what people decided since.
+    const auto largest = static_cast<std::int64_t>(kMaxChanges);
+    if (now->run == page_.known.run && now->event - page_.known.event < largest) return {};
   }
   Result<ServedPage> made = contents_.make_page();
   if (!made) return made.error();
@@ -127,22 +127,22 @@ Answer Site::state(const Request& request) {
   if (!event) return error_answer({ErrorCode::usage, "event is no number of a row", {}, {}});
   const Result<project::ReadScope> scope = project::ReadScope::begin(contents_.database);
   if (!scope) return error_answer(scope.error());
-  Result<std::string> told = project_answer(contents_.database, *event, nullptr);
-  if (!told) return error_answer(told.error());
-  return json_answer(HttpStatus::ok, std::move(*told));
+  Result<std::string> answer = project_answer(contents_.database, *event, nullptr);
+  if (!answer) return error_answer(answer.error());
+  return json_answer(HttpStatus::ok, std::move(*answer));
 }
 
-Answer Site::decide(DecisionRequest asked, project::Transaction transaction) {
-  asked.decision.by = contents_.by;
-  asked.decision.at = contents_.utc_now();
-  const Result<project::DecisionsAsSeen> done =
-      project::decide_as_seen(contents_.database, asked.keys, asked.decision, asked.seen);
+Answer Site::decide(DecisionRequest request, project::Transaction transaction) {
+  request.decision.by = contents_.by;
+  request.decision.at = contents_.utc_now();
+  const Result<project::DecideOutcome> done = project::decide_if_unchanged(
+      contents_.database, request.keys, request.decision, request.known);
   if (!done) return error_answer(done.error());
-  Result<std::string> told = project_answer(contents_.database, asked.seen.event, &*done);
-  if (!told) return error_answer(told.error());
+  Result<std::string> answer = project_answer(contents_.database, request.known.event, &*done);
+  if (!answer) return error_answer(answer.error());
   if (const Status status = transaction.commit(); !status) return error_answer(status.error());
   return json_answer(done->refused.empty() ? HttpStatus::ok : HttpStatus::conflict,
-                     std::move(*told));
+                     std::move(*answer));
 }
 
 }  // namespace strake::serve

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "project/database/database.hpp"
-#include "project/review/decide_as_seen.hpp"
+#include "project/review/decide_if_unchanged.hpp"
 #include "serve/gate/gate.hpp"
 #include "serve/http/message.hpp"
 #include "serve/site/decision_request.hpp"
@@ -21,7 +21,7 @@ namespace strake::serve {
 struct ServedPage {
   std::shared_ptr<const std::string> html;
   std::string policy;  ///< Content-Security-Policy
-  project::SeenState seen;
+  project::KnownState known;
 };
 
 /// What a site is made of.
@@ -52,7 +52,7 @@ class Site final : public RequestHandler {
  private:
   [[nodiscard]] Answer page();
   [[nodiscard]] Answer state(const Request& request);
-  [[nodiscard]] Answer decide(DecisionRequest asked, project::Transaction transaction);
+  [[nodiscard]] Answer decide(DecisionRequest request, project::Transaction transaction);
 
   Gate gate_;
   SiteContents contents_;

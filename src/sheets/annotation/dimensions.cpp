@@ -48,7 +48,7 @@ struct EndOnPaper {
   PaperBox box;
 };
 
-bool looks_along_an_axis(const hlr::View& view) {
+bool is_axis_parallel(const hlr::View& view) {
   const auto axes = [](const geometry::Vec3l& v) {
     return (v.x != 0 ? 1 : 0) + (v.y != 0 ? 1 : 0) + (v.z != 0 ? 1 : 0);
   };
@@ -64,7 +64,7 @@ Result<EndOnPaper> end_on_paper(const DimensionEnd& end, const model::Scene& sce
   const Result<std::uint32_t> object = object_called(*scene.model, end.object);
   if (!object) return object.error();
   // Only there a box in the model is the box on paper.
-  if (!looks_along_an_axis(in.spec.view))
+  if (!is_axis_parallel(in.spec.view))
     return fault_of_dimension("the view '" + in.spec.name +
                               "' looks along no axis of the model: give points, not objects");
   auto box = geometry::empty_box<std::int64_t>();

@@ -15,7 +15,7 @@ namespace strake::sheets {
 /// method 2).
 ///
 /// Errors: input, where the view is in perspective, an object is not there or one of several of
-/// its name, sides of objects are asked for in a view that looks along no axis of the model, or the
+/// its name, sides of objects are requested in a view that looks along no axis of the model, or the
 /// two ends lie on each other.
 [[nodiscard]] Status draw_dimension(const DimensionSpec& spec, const model::Scene& scene,
                                     const MarkedView& in, Marks& marks);

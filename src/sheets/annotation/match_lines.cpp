@@ -20,7 +20,7 @@ namespace {
 /// A text stands off its match line by so much.
 constexpr double kOffLineMm = 1.5;
 /// Smaller letters are not read.
-constexpr double kLeastMatchLettersMm = 1.8;
+constexpr double kMinMatchLettersMm = 1.8;
 
 /// A side of limits on paper: a line, and which way leads out of the view.
 struct SideOnPaper {
@@ -73,7 +73,7 @@ Text text_beside(std::string words, const PaperSegment& line, const SideOnPaper&
   const PaperPoint middle{(line.a.x + line.b.x) / 2, (line.a.y + line.b.y) / 2};
   Text text{LineClass::match_line, {},   letters_mm,       Align::middle,
             std::move(words),      true, reading_turn(way)};
-  text = shrunk_to_width(std::move(text), length, kLeastMatchLettersMm);
+  text = shrunk_to_width(std::move(text), length, kMinMatchLettersMm);
   text.height_mm = drawing::rounded_paper(text.height_mm);
   // Letters that hang reach a quarter of their height below the line on which they stand.
   const bool above = up.x * side.out.x + up.y * side.out.y > 0;

@@ -20,7 +20,7 @@ namespace {
 using drawing::rounded_paper;
 
 constexpr double kRowMm = 5, kCellLettersMm = 2.5, kPaddingMm = 1.5, kWidestMm = 90,
-                 kNarrowestMm = 10, kLeastLettersMm = 1.2;
+                 kNarrowestMm = 10, kMinLettersMm = 1.2;
 
 std::vector<double> widths_of(const NoteTable& table) {
   std::vector<double> widths;
@@ -45,7 +45,7 @@ void write_cell(const std::string& text, const PaperPoint& at, double width, Mar
                   Align::start,
                   text,
                   false};
-  Text shrunk = shrunk_to_width(full, width - 2 * kPaddingMm, kLeastLettersMm);
+  Text shrunk = shrunk_to_width(full, width - 2 * kPaddingMm, kMinLettersMm);
   shrunk.height_mm = rounded_paper(shrunk.height_mm);
   // Heights and widths are rounded, which is not to cost a text its end.
   marks.texts.push_back(cut_to_width(std::move(shrunk), width - 2 * kPaddingMm + 0.1));

@@ -23,11 +23,11 @@ struct BarLength {
 };
 
 /// Returns the largest of 1, 2, 5, 10 … and their tenths that is no longer.
-BarLength round_length(double most_mm) {
+BarLength round_length(double max_mm) {
   double decade = 1e-3;
-  while (decade * 10 <= most_mm) decade *= 10;
-  if (decade * 5 <= most_mm) return {decade * 5, 5};
-  if (decade * 2 <= most_mm) return {decade * 2, 4};
+  while (decade * 10 <= max_mm) decade *= 10;
+  if (decade * 5 <= max_mm) return {decade * 5, 5};
+  if (decade * 2 <= max_mm) return {decade * 2, 4};
   return {decade, 5};
 }
 

@@ -29,7 +29,7 @@ constexpr double kArrowMm = 9, kHeadMm = 3;
 /// The ends of a cutting plane: which way the plane runs out of the view and in which direction the
 /// section is seen, and its letter.
 struct PlaneEnds {
-  PaperPoint look;
+  PaperPoint arrow;
   const std::string& letter;
   double letters_mm;
 };
@@ -37,18 +37,18 @@ struct PlaneEnds {
 /// Returns an end of a cutting plane: its wide part, its arrow and its letter. `out` points away
 /// from the view along the plane.
 Marks end_of_plane(const PlaneEnds& ends, const PaperPoint& end, const PaperPoint& out) {
-  const auto& [look, letter, letters_mm] = ends;
+  const auto& [arrow, letter, letters_mm] = ends;
   Marks marks;
   marks.paths.push_back(
       {LineClass::section, {rounded(end), rounded(along(end, out, -kWideEndMm))}, false});
   // The arrow stands on the end and points at it.
-  const PaperPoint tail = along(end, look, -kArrowMm), neck = along(end, look, -kHeadMm);
+  const PaperPoint tail = along(end, arrow, -kArrowMm), neck = along(end, arrow, -kHeadMm);
   marks.paths.push_back({LineClass::note, {rounded(tail), rounded(neck)}, false});
   marks.paths.push_back({LineClass::note,
                          {rounded(end), rounded(along(neck, out, kHeadMm / 4)),
                           rounded(along(neck, out, -kHeadMm / 4)), rounded(end)},
                          true});
-  const PaperPoint middle = along(tail, look, -0.8 * letters_mm);
+  const PaperPoint middle = along(tail, arrow, -0.8 * letters_mm);
   marks.texts.push_back({LineClass::title, rounded({middle.x, middle.y + letters_mm / 2}),
                          letters_mm, Align::middle, letter, true});
   return marks;
@@ -126,10 +126,10 @@ bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, 
     const Vec3d normal = section.normal.as<double>();
     const double length = std::sqrt(dot(normal, normal));
     if (dot(section.normal, in.spec.view.direction) != 0) continue;
-    PaperPoint look = paper.vector(normal * (1 / length));
+    PaperPoint arrow = paper.vector(normal * (1 / length));
     // Directions of views point to the viewer, who looks the other way.
-    if (dot(normal, cut.view.direction.as<double>()) > 0) look = {-look.x, -look.y};
-    const PaperPoint way{look.y, -look.x};
+    if (dot(normal, cut.view.direction.as<double>()) > 0) arrow = {-arrow.x, -arrow.y};
+    const PaperPoint way{arrow.y, -arrow.x};
     const PaperPoint on = paper.point(geometry::to_mm(section.point));
     constexpr double kFar = 1e5;
     const PaperSegment plane{along(on, way, -kFar), along(on, way, kFar)};
@@ -138,7 +138,7 @@ bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, 
     if (!line || !thin) continue;
     any = true;
     marks.paths.push_back({LineClass::cutting_plane, {rounded(thin->a), rounded(thin->b)}, false});
-    const PlaneEnds ends{look, cut.section_mark, letters_mm};
+    const PlaneEnds ends{arrow, cut.section_mark, letters_mm};
     draw_end(ends, line->a, {-way.x, -way.y}, labels, marks);
     draw_end(ends, line->b, way, labels, marks);
   }

@@ -31,14 +31,14 @@ class FreePlace {
       tops.insert(tops.end(), {taken.bottom, taken.top - height});
     }
     std::optional<PaperBox> best;
-    double most = -1;
+    double largest = -1;
     for (const double top : tops)
       for (const double left : lefts) {
         PaperBox box{left, top, left + width, top + height};
         if (!is_free(box)) continue;
         const double spare = centre(box);
-        if (spare <= most) continue;
-        most = spare;
+        if (spare <= largest) continue;
+        largest = spare;
         best = box;
       }
     return best;

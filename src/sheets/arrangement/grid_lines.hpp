@@ -10,7 +10,7 @@
 
 namespace strake::sheets {
 
-/// Returns whether a file asks for grid lines across this axis in a view that looks along them.
+/// Returns whether a file requests grid lines across this axis in a view that looks along them.
 [[nodiscard]] bool shows_grid(const GridSpec& grid, const ViewSpec& view, std::uint8_t axis);
 
 /// The paper that grid lines need beside a view, for their ends and labels.

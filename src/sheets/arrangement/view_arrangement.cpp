@@ -27,7 +27,7 @@ struct TrackCell {
   int column = 0, row = 0;
   friend bool operator==(const TrackCell&, const TrackCell&) = default;
 };
-constexpr int kLeast = -1, kMost = 2, kTracks = kMost - kLeast + 1;
+constexpr int kMin = -1, kMax = 2, kTracks = kMax - kMin + 1;
 
 /// Returns the cell of any view but the pictorial one.
 TrackCell cell_of(ViewSlot slot, Projection projection) {
@@ -130,7 +130,7 @@ class Grid {
  private:
   using Tracks = std::array<Track, kTracks>;
 
-  static std::size_t position(int cell) { return static_cast<std::size_t>(cell - kLeast); }
+  static std::size_t position(int cell) { return static_cast<std::size_t>(cell - kMin); }
   static Track& track(Tracks& tracks, int cell) { return tracks[position(cell)]; }
   static const Track& track(const Tracks& tracks, int cell) { return tracks[position(cell)]; }
 
@@ -177,7 +177,7 @@ class Grid {
 };
 
 /// The pictorial view leaves a cell that would leave more of the paper empty on one side.
-constexpr double kMostEmpty = 0.3;
+constexpr double kMaxEmpty = 0.3;
 
 class Arranger {
  public:
@@ -214,7 +214,7 @@ class Arranger {
         best = std::move(found);
         least = empty;
       }
-      if (least <= kMostEmpty) break;
+      if (least <= kMaxEmpty) break;
     }
     if (best || !pictorial_) return best;
     return widest(others_, {}, scale, [&](const Arranged& a) { return with_pictorial(a); });
@@ -235,18 +235,18 @@ class Arranger {
                                                Complete&& complete) const {
     const Grid grid(views, projection_, pictorial, scale);
     std::optional<Arranged> best;
-    std::pair most{-1.0, 0.0};
+    std::pair maximum{-1.0, 0.0};
     for (const PaperBox& box : boxes_) {
       if (!grid.fits(box, gap_)) continue;
       for (const Spread& spread : spreads_) {
         const Spread added = grid.added(box, gap_, spread);
         const std::pair gaps{std::min(added.columns, added.rows), added.columns + added.rows};
-        if (gaps <= most) continue;
+        if (gaps <= maximum) continue;
         const Arranged placed{scale, true, grid.spread(box, gap_, spread)};
         if (!lie_free(views, placed)) continue;
         std::optional<Arranged> whole = complete(placed);
         if (!whole || !lie_free(views_, *whole)) continue;
-        most = gaps;
+        maximum = gaps;
         best = std::move(whole);
       }
     }
@@ -349,7 +349,7 @@ hlr::View view_in_slot(ViewSlot slot, const hlr::View& front) {
 PaperBox UnplacedView::at(const PaperPoint& at, double scale) const {
   PaperBox box{at.x + extent.left / scale, at.y - extent.top / scale, at.x + extent.right / scale,
                at.y - extent.bottom / scale};
-  const double wider = std::max(0.0, least_width_mm - box.width()) / 2;
+  const double wider = std::max(0.0, min_width_mm - box.width()) / 2;
   box.left -= std::max(left_mm, wider);
   box.right += std::max(right_mm, wider);
   box.top -= top_mm;
@@ -446,7 +446,7 @@ class Placer {
     const bool scaled = view.scale && !view.view.perspective;
     place.bottom_mm +=
         letters.gap_mm + letters.title_mm + 2.5 + (scaled ? letters.scale_mm + 2 : 0);
-    place.least_width_mm = text_width(view.title) * letters.title_mm + 4;
+    place.min_width_mm = text_width(view.title) * letters.title_mm + 4;
     return place;
   }
 
@@ -485,7 +485,7 @@ class Placer {
     place.at = at;
     UnplacedView lines = requested_[v];
     place.whole = lines.at(at, scale);
-    lines.left_mm = lines.right_mm = lines.top_mm = lines.bottom_mm = lines.least_width_mm = 0;
+    lines.left_mm = lines.right_mm = lines.top_mm = lines.bottom_mm = lines.min_width_mm = 0;
     place.lines = lines.at(at, scale);
   }
 
@@ -566,11 +566,11 @@ std::optional<double> main_scale(const SheetSpec& what, std::span<const ViewPlac
     if (what.views[v].slot != ViewSlot::none) return places[v].scale;
     if (!what.views[v].view.perspective) ++views[places[v].scale];
   }
-  std::optional<double> most;
+  std::optional<double> maximum;
   for (std::size_t v = 0; v < places.size(); ++v)
-    if (!what.views[v].view.perspective && (!most || views[places[v].scale] > views[*most]))
-      most = places[v].scale;
-  return most;
+    if (!what.views[v].view.perspective && (!maximum || views[places[v].scale] > views[*maximum]))
+      maximum = places[v].scale;
+  return maximum;
 }
 
 }  // namespace strake::sheets

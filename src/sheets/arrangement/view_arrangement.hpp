@@ -29,7 +29,7 @@ struct UnplacedView {
   ViewSlot slot = ViewSlot::none;
   drawing::PlaneBox extent;  ///< model mm
   double left_mm = 0, top_mm = 0, right_mm = 0, bottom_mm = 0;
-  double least_width_mm = 0;  ///< the width that lines and captions need together
+  double min_width_mm = 0;  ///< the width that lines and captions need together
 
   /// Returns the paper that it covers where the common point falls on `at`.
   [[nodiscard]] PaperBox at(const PaperPoint& at, double scale) const;

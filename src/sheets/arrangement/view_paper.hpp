@@ -28,8 +28,8 @@ inline constexpr double kWideEndMm = 6;
 /// Returns how far a cutting plane goes beyond the lines of a view where labels take so much of the
 /// paper beside them: its wide end lies beyond the labels.
 [[nodiscard]] inline double reach_of_plane(double labels_mm) {
-  constexpr double kLeastMm = 8, kApartMm = 1;
-  return std::max(labels_mm + kApartMm + kWideEndMm, kLeastMm);
+  constexpr double kMinMm = 8, kApartMm = 1;
+  return std::max(labels_mm + kApartMm + kWideEndMm, kMinMm);
 }
 
 [[nodiscard]] inline PaperPoint rounded(const PaperPoint& p) {

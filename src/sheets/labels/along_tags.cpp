@@ -112,7 +112,7 @@ std::vector<StraightRun> straight_runs(const PlacedView& view, const model::Mode
 /// A run goes on beyond its text by so much at both ends, and places for the text are so far apart.
 constexpr double kBeyondMm = 1, kStepMm = 1;
 /// So many of the longest runs of an object are looked at.
-constexpr std::size_t kMostRuns = 8;
+constexpr std::size_t kMaxRuns = 8;
 
 /// Letters that hang reach so far below the line on which a text stands, in heights of a capital.
 constexpr double kHanging = 0.25;
@@ -152,7 +152,7 @@ std::optional<Text> AlongTags::place(const PlacedView& view, model::ObjectId obj
     const auto& [a, b] = run.line;
     return std::tuple(-length_of(run.line), a.x, a.y, b.x, b.y, run.half_mm);
   });
-  for (std::size_t r = 0; r < std::min(runs.size(), kMostRuns); ++r) {
+  for (std::size_t r = 0; r < std::min(runs.size(), kMaxRuns); ++r) {
     const auto& [a, b] = runs[r].line;
     const double length = length_of(runs[r].line), spare = length - width - 2 * kBeyondMm;
     if (spare < 0) break;

@@ -18,7 +18,7 @@ namespace strake::sheets {
 /// must outlive it.
 class AlongTags {
  public:
-  /// `occupied` knows what blocks the sheet, and is told of the texts that find a place.
+  /// `occupied` knows what blocks the sheet, and takes note of the texts that find a place.
   AlongTags(const Sheet& sheet, const model::Model& model, const SheetArea& room,
             OccupancyGrid& occupied);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 
-/// Returns the views of the balloons as indices, in the order in which they are asked for.
+/// Returns the views of the balloons as indices, in the order in which they are requested.
 std::vector<std::size_t> views_of(const BalloonSpec& spec, const Sheet& sheet) {
   std::vector<std::size_t> views;
   if (spec.views.empty())
@@ -36,8 +36,8 @@ double letters_in(double diameter_mm, std::size_t rows) {
   double widest = 0;
   for (std::size_t row = 1; row <= rows; ++row)
     widest = std::max(widest, text_width(std::to_string(row)));
-  const double most = (diameter_mm - 2 * kRimMm) / std::sqrt(widest * widest + 1);
-  return drawing::rounded_paper(std::min(kUsual * diameter_mm, most));
+  const double largest = (diameter_mm - 2 * kRimMm) / std::sqrt(widest * widest + 1);
+  return drawing::rounded_paper(std::min(kUsual * diameter_mm, largest));
 }
 
 }  // namespace
@@ -55,11 +55,11 @@ BalloonList balloons_of(const PartsListSpec& spec,
     }
   std::vector<std::optional<Balloon>> of_row(listed.size());
   for (const std::size_t view : views_of(*spec.balloons, sheet))
-    for (const SeenObject& seen : seen_objects(sheet.views[view].ink, picked)) {
-      const std::uint32_t row = row_of[model::index(seen.object)];
+    for (const VisibleObject& visible : visible_objects(sheet.views[view].ink, picked)) {
+      const std::uint32_t row = row_of[model::index(visible.object)];
       std::optional<Balloon>& best = of_row[row];
-      if (!best || (best->view == view && seen.length > best->seen.length))
-        best = Balloon{std::to_string(row + 1), seen, view};
+      if (!best || (best->view == view && visible.length > best->visible.length))
+        best = Balloon{std::to_string(row + 1), visible, view};
     }
   for (std::size_t row = 0; row < of_row.size(); ++row)
     if (of_row[row])

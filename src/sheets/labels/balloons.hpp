@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sheets/labels/seen_objects.hpp"
+#include "sheets/labels/visible_objects.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/model/model.hpp"
 #include "strake/sheets/sheet.hpp"
@@ -17,7 +17,7 @@ namespace strake::sheets {
 /// The number of a row and the object that stands for it.
 struct Balloon {
   std::string number;
-  SeenObject seen;
+  VisibleObject visible;
   std::size_t view = 0;  ///< index into Sheet::views
 };
 

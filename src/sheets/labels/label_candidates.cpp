@@ -46,14 +46,14 @@ LabelCandidates::LabelCandidates(std::span<const LabelRequest> requests, const L
 
 /// Returns the points of a lattice about the origin, the nearest first; of equally near ones the
 /// upper and right ones.
-std::vector<LabelCandidates::Offset> LabelCandidates::lattice(double least_mm, bool for_leader) {
+std::vector<LabelCandidates::Offset> LabelCandidates::lattice(double min_mm, bool for_leader) {
   std::vector<Offset> all;
-  const int most = static_cast<int>(kLabelReachMm / kLatticeMm);
-  for (int row = -most; row <= most; ++row)
-    for (int column = -most; column <= most; ++column) {
+  const int limit = static_cast<int>(kLabelReachMm / kLatticeMm);
+  for (int row = -limit; row <= limit; ++row)
+    for (int column = -limit; column <= limit; ++column) {
       const PaperPoint by{column * kLatticeMm, row * kLatticeMm};
       const double length = std::sqrt(by.x * by.x + by.y * by.y);
-      if (length >= least_mm && length <= kLabelReachMm && (!for_leader || suits_leader(by)))
+      if (length >= min_mm && length <= kLabelReachMm && (!for_leader || suits_leader(by)))
         all.push_back({by, length});
     }
   std::ranges::sort(all, {}, [](const Offset& o) { return std::tuple(o.length, o.by.y, -o.by.x); });

@@ -17,10 +17,10 @@ namespace strake::sheets {
 /// about a step of a leader over a square.
 struct WorkLimit {
   std::uint64_t done = 0;
-  std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
 
   void spend(std::uint64_t units) { done += units; }
-  [[nodiscard]] bool used_up() const { return done >= most; }
+  [[nodiscard]] bool used_up() const { return done >= limit; }
 };
 
 /// The candidates of labels: places on a lattice about their anchors which cover nothing of the
@@ -111,7 +111,7 @@ class LabelCandidates {
   [[nodiscard]] double cost_of_view(const LabelRequest& request, const PaperBox& box) const;
   void walk(const LabelPlace& place, Candidate& candidate);
 
-  static std::vector<Offset> lattice(double least_mm, bool for_leader);
+  static std::vector<Offset> lattice(double min_mm, bool for_leader);
 
   std::span<const LabelRequest> requests_;
   const LabelGround& ground_;

@@ -20,10 +20,10 @@ using Blocker = PlacedLabels::Blocker;
 /// What a leader that is crossed costs, in millimetres of leader.
 constexpr double kCrossingMm = 40;
 /// The work of placing all labels of a sheet: less than a second.
-constexpr std::uint64_t kMostWork = 300'000'000;
+constexpr std::uint64_t kMaxWork = 300'000'000;
 constexpr std::uint64_t kCompareWork = 8;  ///< to look at a bin or at a label in it
-constexpr std::size_t kMostEvictions = 8;
-constexpr int kMostRounds = 8;
+constexpr std::size_t kMaxEvictions = 8;
+constexpr int kMaxRounds = 8;
 /// An attempt to untangle takes this part of the work that is left, at most.
 constexpr std::size_t kUntangleParts = 16;
 
@@ -74,7 +74,7 @@ class LabelPlacer {
   /// Returns whether there is any.
   bool take_share(std::uint64_t end, std::size_t parts) {
     if (stop_.stop_requested() || work_.done >= end) return false;
-    work_.most = work_.done + (end - work_.done + parts - 1) / parts;
+    work_.limit = work_.done + (end - work_.done + parts - 1) / parts;
     return true;
   }
 
@@ -84,10 +84,10 @@ class LabelPlacer {
     if (place) placed_.add(label, *places_[label]);
   }
 
-  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& most,
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& limit,
                       Conflicts& found) {
-    placed_.find_conflicts(place, most, found);
-    work_.spend(kCompareWork * found.looked_at);
+    placed_.find_conflicts(place, limit, found);
+    work_.spend(kCompareWork * found.visited);
   }
 
   /// A search for the cheapest place beside the labels that have one.
@@ -125,14 +125,14 @@ class LabelPlacer {
   /// Gives each label the cheapest place that those before it leave.
   void place_each() {
     for (Label label = 0; label < places_.size(); ++label)
-      if (take_share(kMostWork / 2, places_.size() - label)) settle(label, cheapest(label));
+      if (take_share(kMaxWork / 2, places_.size() - label)) settle(label, cheapest(label));
   }
 
   /// Gives labels without room the place of one that finds another.
   void make_room() {
     auto left = static_cast<std::size_t>(
         std::ranges::count_if(places_, [](const auto& place) { return !place; }));
-    const std::uint64_t end = work_.done + (kMostWork - work_.done) / 4 * 3;
+    const std::uint64_t end = work_.done + (kMaxWork - work_.done) / 4 * 3;
     for (Label label = 0; label < places_.size(); ++label)
       if (!places_[label] && take_share(end, left--)) drive_out_for(label);
   }
@@ -164,7 +164,7 @@ class LabelPlacer {
     }
     double take(const LabelPlace& place) {
       found.emplace_back(place, conflicts.blockers.front());
-      return found.size() < kMostEvictions ? kNoLimit : 0;
+      return found.size() < kMaxEvictions ? kNoLimit : 0;
     }
   };
 
@@ -177,10 +177,10 @@ class LabelPlacer {
   /// Places labels with crossed leaders anew, each alone and each pair in the other order, as long
   /// as that makes the sheet cheaper.
   void untangle() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       bool changed = false;
       for (Label label = 0; label < places_.size(); ++label) {
-        if (!take_share(kMostWork, 1)) return;
+        if (!take_share(kMaxWork, 1)) return;
         if (!crossed_by(label).empty()) changed = untangle(label) || changed;
       }
       if (!changed) return;
@@ -201,7 +201,7 @@ class LabelPlacer {
     if (!first && !changed_near(who.first, tried->second) &&
         !changed_near(who.second, tried->second))
       return false;
-    if (!take_share(kMostWork, kUntangleParts)) return false;
+    if (!take_share(kMaxWork, kUntangleParts)) return false;
     const bool changed = attempt();
     tried->second = changes_.size();
     return changed;

@@ -104,20 +104,20 @@ void PlacedLabels::remove(Label label) {
   places_[label].number = 0;
 }
 
-void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& most,
+void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& limit,
                                   Conflicts& found) {
   found.blockers.clear();
   found.crossed.clear();
-  found.looked_at = 0;
+  found.visited = 0;
   ++query_;
   each_bin(place, kClearanceMm, [&](std::size_t b) {
-    ++found.looked_at;
+    ++found.visited;
     for (const Label label : bins_[b]) {
-      ++found.looked_at;
+      ++found.visited;
       if (last_query_[label] == query_) continue;
       last_query_[label] = query_;
       compare(place, label, found);
-      if (found.blockers.size() > most.blockers || found.crossed.size() > most.crossed)
+      if (found.blockers.size() > limit.blockers || found.crossed.size() > limit.crossed)
         return false;
     }
     return true;

@@ -40,7 +40,7 @@ class PlacedLabels {
   struct Conflicts {
     std::vector<Label> blockers;  ///< whose text or leader it covers, or which cover its own
     std::vector<Label> crossed;   ///< whose leaders it only crosses
-    std::size_t looked_at = 0;    ///< bins and labels that the query looked at
+    std::size_t visited = 0;      ///< bins and labels that the query looked at
   };
   /// A label at one of its places; number 0: none.
   struct Blocker {
@@ -59,8 +59,8 @@ class PlacedLabels {
     std::size_t blockers, crossed;
   };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
-  /// there are more than `most` of either; the lists are then not all.
-  void find_conflicts(const LabelPlace& place, const QueryLimit& most, Conflicts& found);
+  /// there are more than `limit` of either; the lists are then not all.
+  void find_conflicts(const LabelPlace& place, const QueryLimit& limit, Conflicts& found);
 
  private:
   template <class Visit>

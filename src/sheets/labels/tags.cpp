@@ -19,27 +19,27 @@ constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "
 
 /// Returns of objects with equal texts the one that shows most, in the order of the model.
 std::vector<TaggedObject> each_text_once(const std::vector<TaggedObject>& all) {
-  std::map<std::string_view, const TaggedObject*> most;
+  std::map<std::string_view, const TaggedObject*> largest;
   for (const TaggedObject& tagged : all) {
-    const TaggedObject*& best = most[tagged.text];
-    if (best == nullptr || tagged.seen.length > best->seen.length) best = &tagged;
+    const TaggedObject*& best = largest[tagged.text];
+    if (best == nullptr || tagged.visible.length > best->visible.length) best = &tagged;
   }
   std::vector<TaggedObject> once;
   for (const TaggedObject& tagged : all)
-    if (most[tagged.text] == &tagged) once.push_back(tagged);
+    if (largest[tagged.text] == &tagged) once.push_back(tagged);
   return once;
 }
 
 /// Writes the texts of the objects that have all or some of the values that a tag names; counts the
 /// others.
-std::vector<TaggedObject> with_texts(const std::vector<SeenObject>& all,
+std::vector<TaggedObject> with_texts(const std::vector<VisibleObject>& all,
                                      const std::vector<TextPiece>& pieces,
                                      const model::Model& model, TagCount& count) {
   std::vector<TaggedObject> texts;
-  for (const SeenObject& seen : all) {
+  for (const VisibleObject& visible : all) {
     std::size_t named = 0, lacking = 0;
     std::string text = on_one_line(fill_placeholders(pieces, [&](const std::string& name) {
-      std::string value = value_of_name(model, seen.object, name);
+      std::string value = value_of_name(model, visible.object, name);
       ++named;
       if (value.empty()) ++lacking;
       return value;
@@ -49,7 +49,7 @@ std::vector<TaggedObject> with_texts(const std::vector<SeenObject>& all,
       continue;
     }
     if (lacking > 0) ++count.partly;
-    texts.push_back({seen, std::move(text), false});
+    texts.push_back({visible, std::move(text), false});
   }
   return texts;
 }
@@ -80,7 +80,7 @@ TagList tags_of(const TagSpec& spec, const std::vector<bool>& picked, const mode
   TagList list{&spec, view, {}, {}};
   const auto pieces = split_placeholders(spec.text);
   if (!pieces) return list;
-  const std::vector<SeenObject> all = seen_objects(sheet.views[view].ink, picked);
+  const std::vector<VisibleObject> all = visible_objects(sheet.views[view].ink, picked);
   list.count.unseen =
       static_cast<std::size_t>(std::count(picked.begin(), picked.end(), true)) - all.size();
   list.objects = with_texts(all, *pieces, model, list.count);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sheets/labels/seen_objects.hpp"
+#include "sheets/labels/visible_objects.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/model/model.hpp"
 #include "strake/sheets/sheet.hpp"
@@ -34,7 +34,7 @@ struct TagCount {
 
 /// An object that gets a tag.
 struct TaggedObject {
-  SeenObject seen;
+  VisibleObject visible;
   std::string text;
   bool placed = false;  ///< it stands along the object already
 };

@@ -28,8 +28,8 @@ constexpr double kBalloonArrowMm = 2.5;
 LabelRequest request_of(const TagList& list, const TaggedObject& tagged) {
   return {.width_mm = text_width(tagged.text) * list.spec->height_mm,
           .height_mm = list.spec->height_mm,
-          .anchors = anchors_of(tagged.seen.longest),
-          .object = tagged.seen.box,
+          .anchors = anchors_of(tagged.visible.longest),
+          .object = tagged.visible.box,
           .on_object = list.spec->style == TagSpec::Style::plain,
           .view = list.view};
 }
@@ -60,7 +60,7 @@ Status write_along(std::span<TagList> lists, const model::Model& model, const Sh
     PlacedView& view = sheet.views[list.view];
     for (TaggedObject& tagged : list.objects) {
       if (stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
-      auto text = placer.place(view, tagged.seen.object, tagged.text, list.spec->height_mm);
+      auto text = placer.place(view, tagged.visible.object, tagged.text, list.spec->height_mm);
       tagged.placed = text.has_value();
       if (text)
         view.tags.texts.push_back(std::move(*text));
@@ -93,8 +93,8 @@ LabelRequest request_of(const BalloonList& list, const Balloon& balloon, const S
   const BalloonSpec& spec = *list.spec->balloons;
   LabelRequest request{.width_mm = spec.diameter_mm,
                        .height_mm = spec.diameter_mm,
-                       .anchors = anchors_of(balloon.seen.longest),
-                       .object = balloon.seen.box,
+                       .anchors = anchors_of(balloon.visible.longest),
+                       .object = balloon.visible.box,
                        .view = balloon.view,
                        .balloon = true};
   if (spec.side != BalloonSpec::Side::anywhere)

@@ -216,8 +216,8 @@ class LayoutNames {
 
  private:
   static std::string fit_for_layout(std::string_view name) {
-    constexpr std::size_t kMostBytes = 200;
-    std::string fit = drawing::dxf::value_text(name, kMostBytes);
+    constexpr std::size_t kMaxBytes = 200;
+    std::string fit = drawing::dxf::value_text(name, kMaxBytes);
     for (char& c : fit)
       if (std::string_view("<>/\\\":;?*|,=`").find(c) != std::string_view::npos) c = '_';
     return fit;

@@ -24,7 +24,7 @@ using settings::Value;
 
 namespace {
 
-constexpr std::size_t kMostLevels = 1000, kMostColumns = 12;
+constexpr std::size_t kMaxLevels = 1000, kMaxColumns = 12;
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void NoteReader::levels(const Value& value) {
     know_view(name, table.at(), "'views' of [levels]");
   const Value* const z = table.value("z");
   const auto* const list = z != nullptr ? std::get_if<Array>(&z->held) : nullptr;
-  if (list == nullptr || list->empty() || list->size() > kMostLevels) {
+  if (list == nullptr || list->empty() || list->size() > kMaxLevels) {
     reading_.fault(z != nullptr ? z->at : value.at, "[levels] has no list of heights",
                    "write z = [\"0m\", [\"DECK 1\", \"1.8m\"]], 1000 at most");
     return;
@@ -123,7 +123,7 @@ void NoteReader::parts_list(const Value& value) {
   list.balloons = balloons(table);
   const Value* const columns = table.value("columns");
   const auto* const all = columns != nullptr ? std::get_if<Array>(&columns->held) : nullptr;
-  if (all == nullptr || all->empty() || all->size() > kMostColumns)
+  if (all == nullptr || all->empty() || all->size() > kMaxColumns)
     reading_.fault(columns != nullptr ? columns->at : value.at,
                    "[[parts_list]] has no list of columns",
                    "write columns = [[\"NAME\", \"{{name}}\"], [\"DN\", \"{{@DN}}\"]], 12 at most");
@@ -177,8 +177,8 @@ void NoteReader::column(TableReader& table, const Value& value, PartsListSpec& l
 
 void NoteReader::revision(const Value& value) {
   TableReader table(reading_, value, "[[revision]]");
-  constexpr std::size_t kMostRevisions = 100;
-  if (found_.revisions.size() == kMostRevisions)
+  constexpr std::size_t kMaxRevisions = 100;
+  if (found_.revisions.size() == kMaxRevisions)
     reading_.fault(value.at, "a sheet of more than 100 revisions", "keep those that matter");
   RevisionSpec revision;
   revision.revision = table.required_text("revision");

@@ -110,7 +110,7 @@ void PaperReader::size(TableReader& table) {
     take_size((*sides)[0], (*sides)[1]);
   }
   const auto allowed = [](double mm) {
-    return mm >= drawing::kLeastPaperMm && mm <= drawing::kLargestPaperMm;
+    return mm >= drawing::kMinPaperMm && mm <= drawing::kLargestPaperMm;
   };
   if (!allowed(found_.width_mm) || !allowed(found_.height_mm))
     reading_.fault(value != nullptr ? value->at : table.at(), "a sheet of " + found_.size + " mm",

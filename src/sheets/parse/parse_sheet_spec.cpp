@@ -39,7 +39,7 @@ using settings::TableReader;
 using settings::Value;
 
 constexpr double kFarthestPositionMm = 1e6;
-constexpr std::size_t kMostViews = 100, kMostSheets = 100, kMostFields = 1000;
+constexpr std::size_t kMaxViews = 100, kMaxSheets = 100, kMaxFields = 1000;
 
 struct SlotName {
   std::string_view name;
@@ -121,14 +121,14 @@ class SheetParser {
     for (const Value* value : top_.tables("style"))
       found_.object_styles.push_back(read_object_style(reading_, sets_, *value));
     std::ranges::move(common, std::back_inserter(found_.object_styles));
-    if (found_.object_styles.size() > drawing::kMostObjectStyles)
+    if (found_.object_styles.size() > drawing::kMaxObjectStyles)
       reading_.fault(top_.at(), "a sheet of more than 1000 styles", "keep those that are seen");
   }
 
   void views_and_marks() {
     arrangement();
     for (const Value* value : top_.tables("view")) view(*value);
-    if (found_.views.size() > kMostViews)
+    if (found_.views.size() > kMaxViews)
       reading_.fault({1, 1}, "a sheet of more than 100 views", "make several sheets of it");
     check_positions();
     for (ViewSpec& view : found_.views) views_.place_sections(view);
@@ -155,7 +155,7 @@ class SheetParser {
     found_.fields_where =
         reading_.file() + ", line " + std::to_string(value->at.line) + ": [fields]";
     const std::vector<const KeyValue*> entries = table.others();
-    if (entries.size() > kMostFields) {
+    if (entries.size() > kMaxFields) {
       reading_.fault(value->at, "a sheet of more than 1000 fields",
                      "keep those that its title block shows");
       return;
@@ -298,7 +298,7 @@ class SheetParser {
     view.where = place(value.at) + ": " + table.what();
     view.title = view.name;
     if (const auto title = table.text("title")) entitle(view, *title);
-    views_.seen_from(table, view);
+    views_.read_perspective(table, view);
     view_marks(table, view);
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
@@ -308,7 +308,7 @@ class SheetParser {
       reading_.fault(value.at, "'position' of " + table.what() + " is far off any sheet",
                      "write millimetres of paper from the upper left corner");
     view.anchor = views_.point(table, "anchor");
-    if (view.anchor && !can_be_seen(*view.anchor, view.view))
+    if (view.anchor && !is_in_view(*view.anchor, view.view))
       reading_.fault(table.value("anchor")->at,
                      "'anchor' of " + table.what() +
                          " lies behind the eye, or nearer to it than what is drawn",
@@ -319,7 +319,7 @@ class SheetParser {
 
   /// Returns whether a point has a place on paper: it is not behind the eye, nor before the near
   /// plane.
-  static bool can_be_seen(const geometry::Vec3l& point, const hlr::View& view) {
+  static bool is_in_view(const geometry::Vec3l& point, const hlr::View& view) {
     const auto axes = drawing::paper_axes(view);
     if (!axes || !axes->eye) return true;
     return dot(axes->toward, geometry::to_mm(axes->eye->at - point)) >= axes->eye->near_mm;
@@ -385,7 +385,7 @@ class SheetSetParser {
     common.read_common();
     refuse_what_sheets_have();
     std::vector<SheetSpec> found;
-    if (sheets.size() > kMostSheets) {
+    if (sheets.size() > kMaxSheets) {
       reading_.fault(top_.value("sheet")->at, "a file of more than 100 sheets",
                      "make several files of it");
       return found;

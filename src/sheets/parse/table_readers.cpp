@@ -78,7 +78,7 @@ void ViewReader::up(TableReader& table, ViewSpec& view) {
                    "give a direction that shows on paper");
 }
 
-void ViewReader::seen_from(TableReader& table, ViewSpec& view) {
+void ViewReader::read_perspective(TableReader& table, ViewSpec& view) {
   if (table.value("eye") == nullptr) {
     for (const std::string_view key : {"target", "near", "field_of_view"})
       if (const Value* const value = table.value(key))
@@ -111,7 +111,7 @@ void ViewReader::perspective(TableReader& table, ViewSpec& view) {
   if (!eye || !target) return;
   perspective.eye = *eye;
   perspective.target = *target;
-  const auto direction = drawing::see_from(perspective, view.view);
+  const auto direction = drawing::set_perspective(perspective, view.view);
   if (!direction) {
     reading_.fault(table.value("target")->at,
                    "of " + table.what() + " " + direction.error().message, direction.error().mend);
@@ -330,7 +330,7 @@ namespace {
 
 using settings::KeyValue;
 
-constexpr std::size_t kMostPlanes = 10000;
+constexpr std::size_t kMaxPlanes = 10000;
 constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
 
 }  // namespace
@@ -389,7 +389,7 @@ void MarkReader::grid(const Value& value) {
   found_.grid.views = views(table);
   for (std::uint8_t axis = 0; axis < 3; ++axis) planes(table, axis);
   for (const Value* one : table.tables("series")) series(*one);
-  if (found_.grid.planes.size() > kMostPlanes)
+  if (found_.grid.planes.size() > kMaxPlanes)
     reading_.fault(value.at, "a grid of more than 10000 lines", "give those that are drawn");
 }
 
@@ -434,7 +434,7 @@ void MarkReader::series(const Value& value) {
                    "write axis = \"x\", first = 0, last = 40, at = \"0m\", spacing = \"600mm\"");
   constexpr std::int64_t kFarthest = 1000000;
   if (!first || !last || *first < -kFarthest || *last > kFarthest || *last < *first ||
-      *last - *first >= static_cast<std::int64_t>(kMostPlanes)) {
+      *last - *first >= static_cast<std::int64_t>(kMaxPlanes)) {
     reading_.fault(value.at, "'first' and 'last' of [[grid.series]] are no numbers of lines",
                    "count upwards, 10000 lines at most");
     return;

@@ -20,7 +20,7 @@ class ViewReader {
   void direction(settings::TableReader& table, ViewSpec& view);
   /// Reads direction and up, or an eye instead of the direction, with target, near plane and field
   /// of view.
-  void seen_from(settings::TableReader& table, ViewSpec& view);
+  void read_perspective(settings::TableReader& table, ViewSpec& view);
   /// Places the section planes that a view has read, once it is known from where it looks.
   void place_sections(ViewSpec& view);
   /// Reads a scale such as "1:50".

@@ -50,7 +50,7 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// The most elements that may be drawn, counting repeats: far more than a frame and a title block
 /// have, and in proportion to the template.
-constexpr std::uint64_t kMostDrawn = 100000, kMostTimes = 10;
+constexpr std::uint64_t kMaxDrawn = 100000, kMaxTimes = 10;
 
 Error reference_error(std::size_t line, std::string message, std::string mend) {
   return {ErrorCode::input, std::move(message), "line " + std::to_string(line), std::move(mend)};
@@ -99,7 +99,7 @@ class References::ReferenceVisitor {
       : elements_(elements), drawn_(elements.size(), kUnknown) {
     for (std::uint32_t e = 0; e < elements.size(); ++e)
       if (!elements[e].id.empty()) by_id_.emplace(elements[e].id, e);
-    most_ = kMostDrawn + kMostTimes * elements.size();
+    limit_ = kMaxDrawn + kMaxTimes * elements.size();
   }
 
   [[nodiscard]] Status run() {
@@ -165,7 +165,7 @@ class References::ReferenceVisitor {
     if (to == kNone) return {};
     if (drawn_[to] == kOpen) return circle(*reference);
     at.drawn += drawn_[to];
-    return at.drawn > most_ ? too_much(element, reference) : Status();
+    return at.drawn > limit_ ? too_much(element, reference) : Status();
   }
 
   [[nodiscard]] static Status circle(const Reference& reference) {
@@ -179,14 +179,14 @@ class References::ReferenceVisitor {
         if (!elements_[child].references.empty()) reference = &elements_[child].references.front();
     return reference_error(
         reference == nullptr ? 1 : reference->line,
-        "the references draw more than " + std::to_string(most_) + " elements",
+        "the references draw more than " + std::to_string(limit_) + " elements",
         "refer to less, or less often: what is drawn by reference counts each time");
   }
 
   const std::vector<Element>& elements_;
   std::multimap<std::string_view, std::uint32_t> by_id_;
   std::vector<std::uint64_t> drawn_;  ///< per element, itself included
-  std::uint64_t most_ = 0;
+  std::uint64_t limit_ = 0;
   std::vector<Step> path_;
 };
 

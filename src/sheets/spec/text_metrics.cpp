@@ -83,9 +83,9 @@ std::vector<PaperBox> boxes_of(const Text& text) {
   return boxes;
 }
 
-Text shrunk_to_width(Text text, double width_mm, double least_height) {
+Text shrunk_to_width(Text text, double width_mm, double min_height) {
   const double wide = text_width(text.text) * text.height_mm;
-  if (wide > width_mm) text.height_mm = std::max(least_height, text.height_mm * width_mm / wide);
+  if (wide > width_mm) text.height_mm = std::max(min_height, text.height_mm * width_mm / wide);
   return text;
 }
 

@@ -33,8 +33,8 @@ inline constexpr double kFontSize = 1.4;
 [[nodiscard]] PaperBox box_of(const PaperPoint& at, Align align, double width_mm, double height_mm);
 
 /// Returns the text, shrunk so far that it is no wider than `width_mm`, but not below
-/// `least_height`.
-[[nodiscard]] Text shrunk_to_width(Text text, double width_mm, double least_height);
+/// `min_height`.
+[[nodiscard]] Text shrunk_to_width(Text text, double width_mm, double min_height);
 
 /// Returns the text with its end replaced by "…", where it would be wider than `width_mm`.
 [[nodiscard]] Text cut_to_width(Text text, double width_mm);

@@ -9,7 +9,7 @@ namespace strake::sheets {
 
 namespace {
 
-constexpr std::size_t kDeepest = 200, kMostAttributes = 1000;
+constexpr std::size_t kDeepest = 200, kMaxAttributes = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -174,7 +174,7 @@ Result<XmlEvent> XmlReader::element() {
     const auto taken = [&](const auto& other) { return other.first == *key; };
     if (std::any_of(event.attributes.begin(), event.attributes.end(), taken))
       return fault("'" + *key + "' is given twice");
-    if (event.attributes.size() == kMostAttributes)
+    if (event.attributes.size() == kMaxAttributes)
       return fault("an element of too many attributes");
     if (!at("=")) return fault("'" + *key + "' has no value");
     advance(1);

@@ -38,7 +38,7 @@ double width_of(std::string_view name) {
   return 13;
 }
 
-/// Returns columns of these names, then those of the attributes that are asked for.
+/// Returns columns of these names, then those of the attributes that are requested.
 std::vector<SheetColumn> columns_of(const ClashContents& contents,
                                     std::initializer_list<std::span<const char* const>> names) {
   std::vector<SheetColumn> columns;

@@ -31,10 +31,10 @@ std::vector<ResultRef> worst_results(const ClashContents& contents) {
     const clash::Pair& pair = pair_of(contents, r);
     return std::tuple(-static_cast<int>(pair.cls), pair.d_mm, r.test, r.pair);
   };
-  const std::size_t most = std::min(all.size(), kMostPictures);
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), all.end(),
+  const std::size_t largest = std::min(all.size(), kMaxPictures);
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(largest), all.end(),
                     [&](const ResultRef& x, const ResultRef& y) { return rank(x) < rank(y); });
-  all.resize(most);
+  all.resize(largest);
   return all;
 }
 

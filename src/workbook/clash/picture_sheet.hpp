@@ -11,7 +11,7 @@
 namespace strake::workbook {
 
 /// The most pictures of a workbook.
-inline constexpr std::size_t kMostPictures = 10;
+inline constexpr std::size_t kMaxPictures = 10;
 
 /// Returns the sheet of the worst hits and clearance violations that no rule allows and that are
 /// not settled, each with its picture: by class, then by d, then as in the findings. It has no rows

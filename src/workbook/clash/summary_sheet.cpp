@@ -146,7 +146,7 @@ void add_sheets(SummaryRows& rows, std::span<const Worksheet> others) {
   rows.heads({"Sheet", "Rows"});
   for (const Worksheet& sheet : others) rows.count(sheet.name, sheet.rows);
   for (const Worksheet& sheet : others)
-    if (sheet.rows == kMostRows - 1) {
+    if (sheet.rows == kMaxRows - 1) {
       rows.text("Note",
                 "A sheet has at most 1,048,576 rows: what is more stands on further sheets "
                 "of the same name with a number");

@@ -23,7 +23,8 @@ constexpr std::string_view kDrawing = "http://schemas.openxmlformats.org/drawing
 constexpr std::string_view kOnSheet =
     "http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing";
 
-/// A word with the colours of its cell: of the letters and of the ground, told apart in grey too.
+/// A word with the colours of its cell: of the letters and of the ground, distinguished in grey
+/// too.
 struct WordColours {
   std::string_view word, letters, ground;
 };

@@ -34,7 +34,7 @@ void append_cell_text(std::string& out, std::string_view raw) {
   while (!raw.empty()) {
     if (begins_as_escape(raw)) {
       // Readers take it for a character: the underscore is written as such an escape itself.
-      if (words + 1 >= kMostCellWords) break;
+      if (words + 1 >= kMaxCellWords) break;
       out += "_x005F_";
       raw.remove_prefix(1);
       ++words;
@@ -44,7 +44,7 @@ void append_cell_text(std::string& out, std::string_view raw) {
     const TakenCharacter c = take_character(raw);
     const std::size_t wide = c.length > 0 && c.code > 0xFFFFU ? 2 : 1;
     // The last word is kept for what says that there was more.
-    if (words + wide > kMostCellWords - (raw.empty() ? 0 : 1)) {
+    if (words + wide > kMaxCellWords - (raw.empty() ? 0 : 1)) {
       raw = rest;
       break;
     }
@@ -81,12 +81,12 @@ SheetRow& SheetRow::string(std::string_view text, CellStyle style) {
 
 SheetRow& SheetRow::value(std::string_view raw) {
   // What would be another text as a number is a name: 007, +5, 12E3, 1234567890123456789.
-  constexpr std::size_t kMostDigits = 15;
+  constexpr std::size_t kMaxDigits = 15;
   const std::optional<double> number = parse_number(raw);
   const std::string_view digits = raw.substr(raw.starts_with('-') ? 1 : 0);
   const bool padded = digits.size() > 1 && digits.front() == '0' && digits[1] != '.';
   const bool plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
-  if (!number || padded || !plain || raw.size() > kMostDigits) return text(raw);
+  if (!number || padded || !plain || raw.size() > kMaxDigits) return text(raw);
   begin_cell(CellStyle::plain);
   out_.append("><v>").append(shortest(*number)).append("</v></c>");
   return *this;

@@ -20,7 +20,7 @@ enum class CellStyle : std::uint8_t {
 };
 
 /// The most rows of a sheet, the row of heads included, and the most UTF-16 words of a cell.
-inline constexpr std::size_t kMostRows = 1048576, kMostCellWords = 32767;
+inline constexpr std::size_t kMaxRows = 1048576, kMaxCellWords = 32767;
 
 /// Returns the name of a column, from 0 on: "A", "Z", "AA".
 [[nodiscard]] std::string column_name(std::size_t column);

@@ -68,11 +68,11 @@ std::optional<PictureSize> size_of_png(std::string_view png) {
   return size;
 }
 
-void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole, std::size_t most_rows) {
+void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole, std::size_t max_rows) {
   std::size_t first = 0, number = 1;
   do {
     Worksheet sheet = whole;
-    sheet.rows = std::min(whole.rows - first, most_rows);
+    sheet.rows = std::min(whole.rows - first, max_rows);
     if (first > 0) {
       sheet.name += " " + std::to_string(++number);
       sheet.cells = [first, cells = whole.cells](std::size_t i, SheetRow& row) {

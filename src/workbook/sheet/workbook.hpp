@@ -48,10 +48,10 @@ struct PictureSize {
 };
 [[nodiscard]] std::optional<PictureSize> size_of_png(std::string_view png);
 
-/// Appends a sheet to others, and where it has more rows than `most_rows` below its heads the rest
+/// Appends a sheet to others, and where it has more rows than `max_rows` below its heads the rest
 /// as further ones, "Clashes 2" and so on.
 void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole,
-                  std::size_t most_rows = kMostRows - 1);
+                  std::size_t max_rows = kMaxRows - 1);
 
 /// Writes a workbook. The bytes depend on the sheets alone: not on the team, the time or the
 /// locale. Errors: output where a sheet or all of it has 4 GiB; memory, cancelled.

@@ -81,12 +81,12 @@ std::optional<double> squared_distance(const IndexedMesh& a, const IndexedMesh& 
   std::vector<CGAL::Bbox_3> box_b;
   for (const auto& t : in_b) box_b.push_back(t.bbox());
   std::optional<Exact::FT> least;
-  std::size_t looked_at = 0;
+  std::size_t visited = 0;
   for (const auto& t : in_a) {
     const CGAL::Bbox_3 box = t.bbox();
     for (std::size_t j = 0; j < in_b.size(); ++j) {
       if (squared_gap(box, box_b[j]) > enough * (1 + 1e-9)) continue;
-      if (++looked_at > 4000) return std::nullopt;
+      if (++visited > 4000) return std::nullopt;
       const Exact::FT d = CGAL::squared_distance(t, in_b[j]);
       if (!least || d < *least) least = d;
     }
@@ -131,11 +131,11 @@ std::optional<bool> interiors_meet(const IndexedMesh& a, const IndexedMesh& b) {
 }
 
 void compare(const SolidPair& pair, const StrakeAnswer& strake,
-             std::map<std::string, std::uint64_t>& asked) {
+             std::map<std::string, std::uint64_t>& requested) {
   ASSERT_EQ(surfaces_meet(pair.a, pair.b), strake.surfaces_meet);
-  ++asked["surfaces"];
+  ++requested["surfaces"];
   if (const auto d = squared_distance(pair.a, pair.b, strake.squared_distance)) {
-    ++asked["distance"];
+    ++requested["distance"];
     EXPECT_DOUBLE_EQ(*d, strake.squared_distance);  // CGAL cuts digits off where Strake rounds
     if (strake.cls == Class::clearance_violation) {
       EXPECT_DOUBLE_EQ(strake.d_mm, std::sqrt(*d) / 1000);
@@ -146,11 +146,11 @@ void compare(const SolidPair& pair, const StrakeAnswer& strake,
     if (a_in_b && b_in_a) {
       EXPECT_EQ(*b_in_a, strake.relation == Relation::b_in_a);
       EXPECT_EQ(*a_in_b, strake.relation == Relation::a_in_b);
-      ++asked[*a_in_b || *b_in_a ? "inside" : "outside"];
+      ++requested[*a_in_b || *b_in_a ? "inside" : "outside"];
     }
   }
   if (const auto meet = interiors_meet(pair.a, pair.b)) {
-    ++asked[*meet ? "interiors" : strake.surfaces_meet ? "touch" : "apart"];
+    ++requested[*meet ? "interiors" : strake.surfaces_meet ? "touch" : "apart"];
     EXPECT_EQ(*meet, strake.cls == Class::hit);
   }
 }
@@ -158,19 +158,19 @@ void compare(const SolidPair& pair, const StrakeAnswer& strake,
 TEST(ClashAgainstCgal, ExactAnswersAreTheSame) {
   const char* count = std::getenv("STRAKE_PEER_PAIRS");
   const std::uint64_t pairs = count != nullptr ? std::strtoull(count, nullptr, 10) : 4000;
-  std::map<std::string, std::uint64_t> asked;
+  std::map<std::string, std::uint64_t> requested;
   for (std::uint64_t seed = 1; seed <= pairs; ++seed) {
     const SolidPair pair = test::draw_solid_pair(seed);
     const auto strake = test::strake_answer(pair);
     if (!strake) continue;
     SCOPED_TRACE(pair.recipe + ": " + std::string(name(strake->cls)) + ' ' +
                  std::string(name(strake->relation)) + " d " + std::to_string(strake->d_mm));
-    compare(pair, *strake, asked);
+    compare(pair, *strake, requested);
   }
   for (const char* question :
        {"surfaces", "distance", "inside", "outside", "interiors", "touch", "apart"}) {
-    EXPECT_GT(asked[question], pairs / 50) << question;
-    RecordProperty(question, std::to_string(asked[question]));
+    EXPECT_GT(requested[question], pairs / 50) << question;
+    RecordProperty(question, std::to_string(requested[question]));
   }
 }
 

@@ -47,7 +47,7 @@ std::shared_ptr<Model> model_of(const testing::IndexedMesh& mesh) {
   return model;
 }
 
-PeerAnswer ask_fcl(const SolidPair& pair) {
+PeerAnswer run_fcl(const SolidPair& pair) {
   const fcl::CollisionObjectd a(model_of(pair.a)), b(model_of(pair.b));
   fcl::CollisionResultd collision;
   fcl::DistanceResultd distance;
@@ -76,7 +76,7 @@ bool same_distance(const SolidPair& pair, const StrakeAnswer& strake, const Peer
   return std::fabs(peer.distance_mm - expected) <= 1e-9 * pair.size_mm();
 }
 
-Verdict judge(const SolidPair& pair, const StrakeAnswer& strake, const PeerAnswer& peer) {
+Verdict compare_answers(const SolidPair& pair, const StrakeAnswer& strake, const PeerAnswer& peer) {
   const bool hit = strake.cls == Class::hit;
   // What bounds the claim that rounding is to blame: how far the truth is from its opposite.
   const bool near_tie = strake.d_lower_mm >= -rounding_mm(pair) && strake.d_mm <= rounding_mm(pair);
@@ -108,8 +108,8 @@ TEST(ClashAgainstFcl, EveryDisagreementHasItsReason) {
     const SolidPair pair = test::draw_solid_pair(seed);
     const auto strake = test::strake_answer(pair);
     if (!strake) continue;
-    const PeerAnswer peer = ask_fcl(pair);
-    const Verdict verdict = judge(pair, *strake, peer);
+    const PeerAnswer peer = run_fcl(pair);
+    const Verdict verdict = compare_answers(pair, *strake, peer);
     ++compared;
     ++verdicts[verdict];
     ++classes[strake->cls];

@@ -25,7 +25,7 @@ namespace {
 struct Settings {
   std::int32_t unit = 1;
   double contact_mm = 0;
-  std::uint32_t most_objects = 6;
+  std::uint32_t max_objects = 6;
   std::uint32_t sections = 0;
   bool perspective = false;
   hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
@@ -34,7 +34,7 @@ struct Settings {
 /// `pushers`: the team of the baseline, whose workers write into each other's edges.
 std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pushers) {
   test::Random random(seed ^ 0x9a74e5U);
-  const test::LatticeOptions lattice{.objects = 1 + random.below(settings.most_objects),
+  const test::LatticeOptions lattice{.objects = 1 + random.below(settings.max_objects),
                                      .unit = settings.unit,
                                      .steps = 1 + random.below(3)};
   const test::SceneBuilder scene = test::lattice_scene(seed, lattice);
@@ -72,7 +72,7 @@ std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pu
 }
 
 /// Scenes of a test: `usual` ones, so many that all tests together have tens of thousands, few
-/// where sanitizers look for other faults; a number for each test where a longer run asks for it.
+/// where sanitizers look for other faults; a number for each test where a longer run requests it.
 std::uint64_t count(std::uint64_t usual) {
   const char* more = std::getenv("STRAKE_ORACLE_SCENES");
   if (more != nullptr) return std::strtoull(more, nullptr, 10);
@@ -119,7 +119,7 @@ TEST(GatherAgainstBruteForce, ContactDistanceOfTheLatticesOwnSize) {
 
 // Steps of the lattice are sides of the tiles that are asked whether they are covered.
 TEST(GatherAgainstBruteForce, TilesOnTheLattice) {
-  const Settings settings{.unit = 1 << 20, .contact_mm = -1, .most_objects = 12};
+  const Settings settings{.unit = 1 << 20, .contact_mm = -1, .max_objects = 12};
   EXPECT_EQ(first_wrong(count(1000), settings), "");
 }
 
@@ -129,7 +129,7 @@ TEST(GatherAgainstBruteForce, HugeLattice) {
 
 TEST(GatherAgainstBruteForce, Crowd) {
   const std::uint64_t seeds = std::max<std::uint64_t>(12, count(24) / 50);
-  EXPECT_EQ(first_wrong(seeds, {.most_objects = 40}), "");
+  EXPECT_EQ(first_wrong(seeds, {.max_objects = 40}), "");
 }
 
 Several with_sections(std::uint64_t seed) {
@@ -173,15 +173,15 @@ TEST(GatherAgainstBruteForce, PerspectiveAndContactDistance) {
 
 TEST(GatherAgainstBruteForce, PerspectiveOfALargeCrowd) {
   const Settings settings{
-      .unit = 1 << 20, .contact_mm = -1, .most_objects = 16, .perspective = true};
+      .unit = 1 << 20, .contact_mm = -1, .max_objects = 16, .perspective = true};
   EXPECT_EQ(first_wrong(count(400), settings), "");
 }
 
 TEST(GatherAgainstBruteForce, PolylinesHiddenByTheirOwnObject) {
   const auto settings_of = [](std::uint64_t seed) {
     Several all = with_sections(seed);
-    all.push_back({.most_objects = 12});
-    all.push_back({.unit = 1 << 20, .contact_mm = -1, .most_objects = 12});
+    all.push_back({.max_objects = 12});
+    all.push_back({.unit = 1 << 20, .contact_mm = -1, .max_objects = 12});
     all.push_back({.perspective = true});
     all.push_back({.unit = 1000, .contact_mm = -1, .sections = 1, .perspective = true});
     for (Settings& settings : all) settings.own_polylines = hlr::OwnPolylines::hidden;

@@ -21,7 +21,7 @@ using geometry::Vec3l;
 const std::uint64_t kObjects = test::rounds(1'000, 100'000);
 const std::uint64_t kRays = test::rounds(2'000, 100'000);
 
-void judge(bool turned, const std::vector<Vec3l>& directions) {
+void observe(bool turned, const std::vector<Vec3l>& directions) {
   parallel::Team team(parallel::default_workers());
   const parallel::Context context{.team = &team};
   const auto ship = generate::generate_ship({kObjects, 1, turned}, context);
@@ -39,10 +39,10 @@ void judge(bool turned, const std::vector<Vec3l>& directions) {
   }
 }
 
-TEST(GeneratedShip, NoRayDisagrees) { judge(false, {{1, -1, 1}, {0, 0, 1}, {5, -7, 4}}); }
+TEST(GeneratedShip, NoRayDisagrees) { observe(false, {{1, -1, 1}, {0, 0, 1}, {5, -7, 4}}); }
 
 // No face lies along an axis, and what is flush is so to within rounding.
-TEST(GeneratedShip, NoRayDisagreesWhenItStandsAskew) { judge(true, {{1, -1, 1}, {0, -1, 0}}); }
+TEST(GeneratedShip, NoRayDisagreesWhenItStandsAskew) { observe(true, {{1, -1, 1}, {0, -1, 0}}); }
 
 }  // namespace
 }  // namespace strake

@@ -53,12 +53,13 @@ bool same(const IntersectionLine& x, const IntersectionLine& y) {
 }
 
 /// How many there are, and how many pairs were searched.
-struct Seen {
+struct Observation {
   std::size_t lines = 0;
   std::uint64_t pairs = 0;
 };
 
-Seen judge(const model::Scene& scene, Intersections which, const parallel::Context& context = {}) {
+Observation observe(const model::Scene& scene, Intersections which,
+                    const parallel::Context& context = {}) {
   const std::vector<bool> drawn(scene.model->objects.size(), true);
   std::vector<std::int64_t> contact(scene.bodies.size());
   for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = static_cast<std::int64_t>(b % 4);
@@ -76,7 +77,7 @@ Seen judge(const model::Scene& scene, Intersections which, const parallel::Conte
 
 TEST(IntersectionsAgainstAllPairs, LatticeScenesStraightAndAskew) {
   constexpr std::uint64_t kScenes = test::rounds<std::uint64_t>(150);
-  Seen all;
+  Observation all;
   for (std::uint64_t seed = 0; seed < kScenes; ++seed)
     for (const bool askew : {false, true}) {
       SCOPED_TRACE(seed);
@@ -90,9 +91,9 @@ TEST(IntersectionsAgainstAllPairs, LatticeScenesStraightAndAskew) {
         };
       const test::SceneBuilder scene = test::lattice_scene(seed, options);
       for (const Intersections which : {Intersections::objects, Intersections::parts}) {
-        const Seen seen = judge(scene.scene(), which);
-        all.lines += seen.lines;
-        all.pairs += seen.pairs;
+        const Observation observed = observe(scene.scene(), which);
+        all.lines += observed.lines;
+        all.pairs += observed.pairs;
       }
     }
   EXPECT_GT(all.lines, kScenes);
@@ -126,7 +127,7 @@ TEST(IntersectionsAgainstAllPairs, ManyEqualObjectsAtOnePlace) {
       for (const bool one_part : {false, true})
         for (const Intersections which : {Intersections::objects, Intersections::parts}) {
           SCOPED_TRACE(::testing::Message() << copies << crossing << one_part);
-          lines += judge(stacked(copies, crossing, one_part).scene(), which).lines;
+          lines += observe(stacked(copies, crossing, one_part).scene(), which).lines;
         }
   EXPECT_GT(lines, 1000U);
 }
@@ -149,17 +150,18 @@ TEST(IntersectionsAgainstAllPairs, EqualObjectsAtOnePlaceAreNoPairs) {
 TEST(IntersectionsAgainstAllPairs, ShipStraightAndAskew) {
   parallel::Team team(parallel::default_workers());
   const parallel::Context context{.team = &team};
-  Seen all;
+  Observation all;
   for (const bool turned : {false, true}) {
     const auto ship = generate::generate_ship({100, 1, turned}, context);
     ASSERT_TRUE(ship);
     const auto scene = model::make_scene(ship->model, {}, context);
     ASSERT_TRUE(scene);
-    const Seen seen = judge(*scene, Intersections::objects, context);
-    // Of some thousand pairs; flush ones are told by planes, whether the ship stands askew or not.
-    EXPECT_LT(seen.pairs, 4 * ship->model.objects.size());
-    all.lines += seen.lines;
-    all.pairs += seen.pairs;
+    const Observation observed = observe(*scene, Intersections::objects, context);
+    // Of some thousand pairs; flush ones are reported by planes, whether the ship stands askew or
+    // not.
+    EXPECT_LT(observed.pairs, 4 * ship->model.objects.size());
+    all.lines += observed.lines;
+    all.pairs += observed.pairs;
   }
   EXPECT_GT(all.lines, 0U);
   EXPECT_GT(all.pairs, 0U);

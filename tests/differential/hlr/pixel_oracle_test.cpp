@@ -25,15 +25,15 @@ using geometry::Vec3l;
 
 constexpr int kWidth = 700;
 
-struct Sight {
+struct ViewCase {
   Vec3l direction, up;
 };
-const std::vector<Sight> kSights = {{{1, -1, 1}, {0, 0, 1}},
-                                    {{0, 0, 1}, {0, 1, 0}},
-                                    {{0, -1, 0}, {0, 0, 1}},
-                                    {{7, -3, 2}, {0, 0, 1}}};
+const std::vector<ViewCase> kSights = {{{1, -1, 1}, {0, 0, 1}},
+                                       {{0, 0, 1}, {0, 1, 0}},
+                                       {{0, -1, 0}, {0, 0, 1}},
+                                       {{7, -3, 2}, {0, 0, 1}}};
 
-hlr::Drawing drawn(const model::Scene& scene, const Sight& sight) {
+hlr::Drawing drawn(const model::Scene& scene, const ViewCase& sight) {
   auto drawing =
       hlr::draw(scene, {}, {.direction = sight.direction, .up = sight.up, .limits = {}}, {}, {});
   EXPECT_TRUE(drawing);
@@ -75,10 +75,10 @@ model::Model crowd(std::uint64_t seed, int objects) {
 }
 
 /// `most`: disagreements per million pixels that were asked about.
-void expect_agreement(const model::Scene& scene, const Sight& sight, int width, double most,
+void expect_agreement(const model::Scene& scene, const ViewCase& sight, int width, double most,
                       const std::string& what) {
   const test::PixelCheck check = test::check_by_pixels(scene, drawn(scene, sight), width);
-  const std::string told =
+  const std::string reported =
       what + " from " + std::to_string(sight.direction.x) + "," +
       std::to_string(sight.direction.y) + "," + std::to_string(sight.direction.z) + ": " +
       check.first + "; " + std::to_string(check.covered) + " of " +
@@ -86,14 +86,14 @@ void expect_agreement(const model::Scene& scene, const Sight& sight, int width, 
       std::to_string(check.magnified) + " magnified), " + std::to_string(check.without_line) +
       " of " + std::to_string(check.jumps) + " jumps and " + std::to_string(check.borders) +
       " borders without a line";
-  EXPECT_GT(check.line_pixels, 1000U) << told;
-  EXPECT_GT(check.borders, 300U) << told;
+  EXPECT_GT(check.line_pixels, 1000U) << reported;
+  EXPECT_GT(check.borders, 300U) << reported;
   EXPECT_LE(static_cast<double>(check.covered),
             most * 1e-6 * static_cast<double>(check.line_pixels))
-      << told;
+      << reported;
   EXPECT_LE(static_cast<double>(check.without_line),
             most * 1e-6 * static_cast<double>(check.borders + check.jumps))
-      << told;
+      << reported;
 }
 
 TEST(PixelOracle, CrowdsAgree) {
@@ -101,7 +101,7 @@ TEST(PixelOracle, CrowdsAgree) {
     const model::Model model = crowd(seed, 60);
     const auto scene = model::make_scene(model, {}, {});
     ASSERT_TRUE(scene);
-    for (const Sight& sight : kSights)
+    for (const ViewCase& sight : kSights)
       expect_agreement(*scene, sight, kWidth, 0, "crowd " + std::to_string(seed));
   }
 }
@@ -140,7 +140,7 @@ TEST(PixelOracle, AGeneratedShipAgrees) {
   ASSERT_TRUE(ship);
   const auto scene = model::make_scene(ship->model, {}, {});
   ASSERT_TRUE(scene);
-  for (const Sight& sight : kSights) expect_agreement(*scene, sight, kWidth, 0, "ship");
+  for (const ViewCase& sight : kSights) expect_agreement(*scene, sight, kWidth, 0, "ship");
 }
 
 TEST(PixelOracle, TheRealPlatformAgrees) {
@@ -152,7 +152,7 @@ TEST(PixelOracle, TheRealPlatformAgrees) {
   ASSERT_TRUE(model);
   const auto scene = model::make_scene(*model, {}, {});
   ASSERT_TRUE(scene);
-  for (const Sight& sight : kSights) expect_agreement(*scene, sight, 1600, 0, "platform");
+  for (const ViewCase& sight : kSights) expect_agreement(*scene, sight, 1600, 0, "platform");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(RayCheck, FindsEveryTurnedState) {
     const test::SceneBuilder scene = test::lattice_scene(seed, {.objects = 3, .unit = 1000});
     hlr::Drawing drawing =
         drawn(scene.scene(), test::direction_of(static_cast<std::uint32_t>(seed)));
-    // Parts of one object that share an edge may differ along it, and a piece does not tell its
+    // Parts of one object that share an edge may differ along it, and a piece does not show its
     // part: objects of one part only are turned.
     const auto is_single = [&](const hlr::EdgePiece& p) {
       const auto bodies = scene.scene().bodies_of(p.object);

@@ -56,7 +56,7 @@ TEST(Backends, give_the_same_bytes) {
 // While a worker of the arena waits for a region to end it must not start on another of the
 // program's own tasks: that would enter what the first holds a second time.
 TEST(Backends, a_waiting_worker_takes_no_foreign_task) {
-  // As many threads as it asks for, on however few cores.
+  // As many threads as it requests, on however few cores.
   const oneapi::tbb::global_control allowed(oneapi::tbb::global_control::max_allowed_parallelism,
                                             4);
   oneapi::tbb::task_arena arena(3);

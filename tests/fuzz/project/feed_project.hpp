@@ -37,7 +37,8 @@ struct ProjectSeed {
   hlr::Drawing drawing;
 };
 
-/// Stores the view of a model. What it was solved from is made up: nobody asks whether it holds.
+/// Stores the view of a model. What it was solved from is made up: nobody needs it whether it
+/// holds.
 [[nodiscard]] inline hlr::Drawing store_iso(project::Project& project, const model::Model& model) {
   const auto scene = model::make_scene(model, {}, {});
   if (!scene) stop("no scene");

@@ -49,7 +49,7 @@ TEST_P(GoldenClash, IsThisOnEveryCompiler) {
   EXPECT_EQ(report.hash, GetParam().hash);
   EXPECT_GT(report.regions.size(), 10U);
   Options without = options();
-  without.engine.most_regions = 0;
+  without.engine.max_regions = 0;
   EXPECT_EQ(detect(scene, one_set(scene), without, {})->hash, GetParam().without_regions);
 }
 

@@ -64,13 +64,13 @@ std::string fault_of(const Report& earlier, const FollowedRun& run) {
   if (run.earlier.sheets != earlier.sheets) return "the sheets of the earlier run";
   gone.pairs.clear();
   for (const std::size_t i : run.changes->gone_from) gone.pairs.push_back(earlier.pairs[i]);
-  Report told = gone;
-  told.pairs = run.changes->gone;
-  if (const std::string fault = ReportDifference::of(gone, told); !fault.empty())
+  Report reported = gone;
+  reported.pairs = run.changes->gone;
+  if (const std::string fault = ReportDifference::of(gone, reported); !fault.empty())
     return "gone: " + fault;
   gone.pairs = std::move(then.pairs);
-  told.pairs = std::move(now.pairs);
-  return ReportDifference::of(gone, told);
+  reported.pairs = std::move(now.pairs);
+  return ReportDifference::of(gone, reported);
 }
 
 PartnerBlocks blocks_of(const Report& report, std::size_t objects) {
@@ -105,7 +105,7 @@ class IncrementalLaw : public testing::TestWithParam<std::uint64_t> {
       ASSERT_TRUE(followed) << followed.error().text();
       EXPECT_EQ(ReportDifference::of(full, followed->report), "");
       EXPECT_EQ(fault_of(earlier.report, *followed), "");
-      if (followed->changes) ++told_;
+      if (followed->changes) ++reported_;
       work_ += followed->report.counters.part_pairs;
     }
     full_work_ += 4 * full.counters.part_pairs;
@@ -133,14 +133,14 @@ class IncrementalLaw : public testing::TestWithParam<std::uint64_t> {
   }
 
   parallel::Team one_{1}, two_{2}, three_{3}, eight_{8};
-  std::uint64_t work_ = 0, full_work_ = 0, told_ = 0;
+  std::uint64_t work_ = 0, full_work_ = 0, reported_ = 0;
 };
 
 TEST_P(IncrementalLaw, EqualsTheFullRunBitByBit) {
   follow_edits([](EditedModel& edited) { edited.edit(); });
   // It would be equal as well if every run were a full one.
   EXPECT_LT(work_, full_work_);
-  EXPECT_GT(told_, 0U);
+  EXPECT_GT(reported_, 0U);
 }
 
 TEST_P(IncrementalLaw, HoldsForFilesThatAreRenamed) {

@@ -46,7 +46,7 @@ TEST(LargeRuns, FindTheSameForAnyTeam) {
   for (const bool whole : {true, false}) {
     SCOPED_TRACE(whole ? "with regions" : "contacts counted, no regions");
     if (!whole) {
-      options.engine.most_regions = 0;
+      options.engine.max_regions = 0;
       options.engine.contacts = Contacts::count;
     }
     const auto expected = detect(*scene, one_set(*scene), options, {});

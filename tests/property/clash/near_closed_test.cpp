@@ -165,7 +165,7 @@ TriangleMesh lid_above(const Vec3d& size, double gap) {
   return box;
 }
 
-/// What is told of a lidded box and a block that stands `d` above the lid, or as deep in it.
+/// What is reported a lidded box and a block that stands `d` above the lid, or as deep in it.
 clash::Report lid_and_block(double gap, double d, Draw& draw, const clash::Options& options) {
   const double x = draw.between(100, 900), y = draw.between(100, 900), z = draw.between(100, 900);
   TriangleMesh box = lid_above({x, y, z}, gap);
@@ -195,7 +195,7 @@ TEST_P(NearClosed, TheBracketHoldsWhereTheLidWas) {
 }
 
 // A weld takes nothing out of a tolerance unsaid.
-TEST_P(NearClosed, WhatTheLidWasNearerThanIsTold) {
+TEST_P(NearClosed, WhatTheLidWasNearerThanIsReported) {
   Draw draw(GetParam());
   for (const double gap : {0.002, 0.0031, 0.4, 4.9})
     for (const double d : {0.0, 7.9}) {
@@ -211,7 +211,7 @@ TEST_P(NearClosed, WhatTheLidWasNearerThanIsTold) {
     }
 }
 
-// What the numbers of the source close is closed whatever is asked for besides.
+// What the numbers of the source close is closed whatever is requested besides.
 TEST_P(NearClosed, AWiderWeldClosesNoLess) {
   Draw draw(GetParam());
   const ClosedBody body = test::drawn_body(draw);
@@ -242,20 +242,20 @@ TEST(NearClosedScenes, InstancesShareAShape) {
   EXPECT_EQ(scene_of(m, -1).shapes.size(), 1U);
 }
 
-// How far corners were moved is told in the unit that suits it.
-TEST(NearClosedScenes, ALongWeldIsToldInMillimetres) {
+// How far corners were moved is reported in the unit that suits it.
+TEST(NearClosedScenes, ALongWeldIsReportedInMillimetres) {
   ClashModel m;
   m.object("box").body(lid_above({300, 200, 100}, 4.9));
-  const auto told = [&](double weld_mm) {
+  const auto reported = [&](double weld_mm) {
     const model::Scene scene = scene_of(m, weld_mm);
     for (const Diagnostic& d : scene.diagnostics.kept())
       if (d.code == "mesh-welded") return d.message;
     return std::string();
   };
-  EXPECT_NE(told(5).find("4.900 mm"), std::string::npos) << told(5);
+  EXPECT_NE(reported(5).find("4.900 mm"), std::string::npos) << reported(5);
   m = {};
   m.object("box").body(lid_above({300, 200, 100}, 0.05));
-  EXPECT_NE(told(1).find("50 um"), std::string::npos) << told(1);
+  EXPECT_NE(reported(1).find("50 um"), std::string::npos) << reported(1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawn, NearClosed,

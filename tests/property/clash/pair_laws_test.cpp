@@ -36,17 +36,17 @@ using testing::IndexedMesh;
 
 constexpr auto kPairs = test::rounds<std::uint64_t>(150, 10'000);
 
-Pair judged(const ClashModel& m) {
+Pair evaluated(const ClashModel& m) {
   const Report report = m.detect(test::exact_options());
   EXPECT_EQ(report.pairs.size(), 1U);
   return report.pairs.empty() ? Pair{} : report.pairs.front();
 }
 
-Pair judged(const IndexedMesh& a, const IndexedMesh& b) {
+Pair evaluated(const IndexedMesh& a, const IndexedMesh& b) {
   ClashModel m;
   m.object("a").body(test::in_mm(a));
   m.object("b").body(test::in_mm(b));
-  return judged(m);
+  return evaluated(m);
 }
 
 Relation mirrored(Relation r) {
@@ -83,7 +83,7 @@ void over_pairs(const Law& law) {
   for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
     const SolidPair pair = test::draw_solid_pair(seed);
     SCOPED_TRACE(pair.recipe);
-    const Pair base = judged(pair.a, pair.b);
+    const Pair base = evaluated(pair.a, pair.b);
     if (base.cls == Class::hit) ++hits;
     if (base.cls == Class::contact) ++contacts;
     if (base.cls == Class::clearance_violation) ++apart;
@@ -96,7 +96,7 @@ void over_pairs(const Law& law) {
 
 TEST(PairLaws, SwappedNamesMirrorTheAnswer) {
   over_pairs([](const SolidPair& pair, const Pair& base, std::uint64_t) {
-    Pair swapped = judged(pair.b, pair.a);
+    Pair swapped = evaluated(pair.b, pair.a);
     swapped.relation = mirrored(swapped.relation);
     expect_same_bits(base, swapped);
   });
@@ -122,7 +122,7 @@ TEST(PairLaws, OrderOfTrianglesAndVertices) {
   over_pairs([](const SolidPair& pair, const Pair& base, std::uint64_t seed) {
     std::mt19937_64 rng(seed);
     expect_same_answer(base,
-                       judged(testing::shuffled(pair.a, rng), testing::shuffled(pair.b, rng)));
+                       evaluated(testing::shuffled(pair.a, rng), testing::shuffled(pair.b, rng)));
   });
 }
 
@@ -131,8 +131,8 @@ TEST(PairLaws, SubdividedFaces) {
   for (Vec3i& row : twice.row) row = row * 2;
   over_pairs([&](const SolidPair& pair, const Pair&, std::uint64_t) {
     const IndexedMesh a = mapped(pair.a, twice), b = mapped(pair.b, twice);
-    expect_same_answer(judged(a, b), judged(testing::subdivided(a), b));
-    expect_same_answer(judged(a, b), judged(a, testing::subdivided(b)));
+    expect_same_answer(evaluated(a, b), evaluated(testing::subdivided(a), b));
+    expect_same_answer(evaluated(a, b), evaluated(a, testing::subdivided(b)));
   });
 }
 
@@ -143,7 +143,7 @@ TEST(PairLaws, MovedByGridSteps) {
     ClashModel m;
     m.object("a").body(test::in_mm(pair.a), {{}, there});
     m.object("b").body(test::in_mm(pair.b), {{}, there});
-    expect_same_bits(base, judged(m));
+    expect_same_bits(base, evaluated(m));
   });
 }
 
@@ -161,7 +161,7 @@ TEST(PairLaws, MovedInTheFileByGridSteps) {
     };
     Vec3i there;
     for (int axis = 0; axis < 3; ++axis) there[axis] = step();
-    expect_same_bits(base, judged(moved(pair.a, there), moved(pair.b, there)));
+    expect_same_bits(base, evaluated(moved(pair.a, there), moved(pair.b, there)));
   });
 }
 
@@ -180,12 +180,12 @@ TEST(PairLaws, MovedInTheFileByGridStepsWithWorkLeft) {
     return made;
   };
   const IndexedMesh a = soup(100), b = soup(100);
-  const Pair base = judged(a, b);
+  const Pair base = evaluated(a, b);
   EXPECT_EQ(base.cls, Class::hit);
   EXPECT_FALSE(base.depth_complete);
   for (const Vec3i by : {Vec3i{1, 0, 0}, Vec3i{1000, -7, 3}, Vec3i{0, 30'000'000, 0},
                          Vec3i{-400'000'000, 123'456'789, 987'654'321}})
-    expect_same_bits(base, judged(moved(a, by), moved(b, by)));
+    expect_same_bits(base, evaluated(moved(a, by), moved(b, by)));
 }
 
 /// Bit by bit where the number is exact; a depth within its bracket.
@@ -194,7 +194,7 @@ TEST(PairLaws, TheSymmetriesOfTheAxes) {
     for (int i = 0; i < 3; ++i) {
       const auto symmetry =
           testing::axis_symmetry(static_cast<int>((seed * 7 + static_cast<unsigned>(i) * 17) % 48));
-      expect_same_answer(base, judged(mapped(pair.a, symmetry), mapped(pair.b, symmetry)));
+      expect_same_answer(base, evaluated(mapped(pair.a, symmetry), mapped(pair.b, symmetry)));
     }
   });
 }
@@ -207,7 +207,7 @@ TEST(PairLaws, SeparationChangesByNoMoreThanTheMove) {
     ClashModel m;
     m.object("a").body(test::in_mm(pair.a));
     m.object("b").body(test::in_mm(pair.b), {{}, by});
-    const Pair moved = judged(m);
+    const Pair moved = evaluated(m);
     const double way = std::sqrt(dot(by, by)) * (1 + 1e-12) + 1e-9;
     EXPECT_LE(moved.d_lower_mm, base.d_upper_mm + way);
     EXPECT_LE(base.d_lower_mm, moved.d_upper_mm + way);
@@ -221,7 +221,7 @@ TEST(PairLaws, TheBracketIsThatOfAllParts) {
   ASSERT_EQ(pair.recipe, "seed 73 lattice solid and box, touching, askew");
   const auto image = [&](int i) {
     const auto symmetry = testing::axis_symmetry(i);
-    return judged(mapped(pair.a, symmetry), mapped(pair.b, symmetry));
+    return evaluated(mapped(pair.a, symmetry), mapped(pair.b, symmetry));
   };
   const Pair base = image(0);
   for (int i = 1; i < 48; ++i) expect_same_answer(base, image(i));
@@ -234,7 +234,7 @@ TEST(PairLaws, RoundingDoesNotChooseTheRelation) {
   ASSERT_EQ(pair.recipe, "seed 6316 lattice solid and lattice solid, contained, aligned");
   for (int i = 0; i < 48; ++i) {
     const auto symmetry = testing::axis_symmetry(i);
-    const Pair image = judged(mapped(pair.a, symmetry), mapped(pair.b, symmetry));
+    const Pair image = evaluated(mapped(pair.a, symmetry), mapped(pair.b, symmetry));
     EXPECT_EQ(name(image.relation), name(Relation::interfere)) << i;
     EXPECT_NEAR(image.d_mm, -20.064154916, 1e-5) << i;
   }
@@ -256,7 +256,7 @@ TEST(PairLaws, APartMoreNeverRaisesTheSeparation) {
     ClashModel m;
     m.object("a").body(test::in_mm(pair.a));
     m.object("b").body(test::in_mm(pair.b)).body(test::in_mm(more));
-    expect_no_rise(base, judged(m));
+    expect_no_rise(base, evaluated(m));
   });
 }
 
@@ -273,7 +273,7 @@ TEST(PairLaws, ALargerBodyNeverRaisesTheSeparation) {
     const IndexedMesh small = mapped(nested.a.mesh, scale), large = mapped(nested.b.mesh, scale);
     const IndexedMesh other = mapped(testing::random_pair(rng).a.mesh, scale);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Pair before = judged(small, other), after = judged(large, other);
+    const Pair before = evaluated(small, other), after = evaluated(large, other);
     expect_no_rise(before, after);
     ++compared;
     if (after.d_upper_mm < before.d_lower_mm) ++rose_in_depth;
@@ -333,7 +333,7 @@ TEST(PairLaws, ALargerPrimitiveNeverRaisesTheSeparation) {
       ClashModel m;
       m.object("a").body(first, at);
       m.object("b").body(b, beside);
-      return m.detect({.tolerances = {.clearance_mm = 1e6}, .engine = {.most_regions = 0}});
+      return m.detect({.tolerances = {.clearance_mm = 1e6}, .engine = {.max_regions = 0}});
     };
     const Report before = of(a), after = of(large);
     if (before.pairs.size() != 1 || after.pairs.size() != 1) continue;
@@ -351,7 +351,7 @@ TEST(PairLaws, InsulationNeverHidesAClash) {
     ClashModel m;
     m.object("pipe").body(geometry::CylinderPrimitive{radius, 2000}, {{}, {150, 0, 0}});
     m.box("wall", {0, -1000, -900}, {100, 1000, 900});
-    const Pair p = judged(m);
+    const Pair p = evaluated(m);
     EXPECT_NEAR(p.d_mm, 50 - radius, 0.02) << radius;
     EXPECT_LE(p.d_lower_mm, 50 - radius) << radius;
     EXPECT_GE(p.d_upper_mm, 50 - radius) << radius;

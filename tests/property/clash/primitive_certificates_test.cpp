@@ -84,7 +84,7 @@ void bring_near(Bodies& of, double gap) {
   of.b.at.translation = on_grid(of.b.at.translation + s->away * far);
 }
 
-/// A few micrometres to a few millimetres, either way; on the grid, so that what is asked for as
+/// A few micrometres to a few millimetres, either way; on the grid, so that what is requested as
 /// nothing is anything up to a micrometre.
 double draw_gap(PrimitiveDraw& draw) {
   if (draw.one_in(3)) return 0;
@@ -129,7 +129,7 @@ struct Answer {
   std::optional<Pair> pair;
 };
 
-std::optional<Pair> asked(const Bodies& of, const Options& options) {
+std::optional<Pair> requested(const Bodies& of, const Options& options) {
   test::ClashModel m;
   m.object("a").body(of.a.primitive, of.a.at);
   m.object("b").body(of.b.primitive, of.b.at);
@@ -146,7 +146,7 @@ void expect_points_of_gap(const Bodies& of, const Pair& p) {
   EXPECT_NEAR(length(p.on_a_mm - p.on_b_mm), p.d_mm, 1e-6);
 }
 
-void expect_way_out(const Bodies& of, const Pair& p) {
+void expect_exit_direction(const Bodies& of, const Pair& p) {
   const Body &in = p.deep_in_a ? of.a : of.b, &other = p.deep_in_a ? of.b : of.a;
   EXPECT_GE(in.depth(p.point_mm), -p.d_upper_mm - room_of(p));
   EXPECT_GE(other.depth(p.point_mm), -room_of(p));
@@ -159,21 +159,21 @@ void expect_way_out(const Bodies& of, const Pair& p) {
 }
 
 /// What was seen of each sort.
-struct Seen {
+struct Observation {
   std::uint64_t apart = 0, open = 0, deep = 0, held = 0;
 };
 
-void check(const Bodies& of, const Options& options, Seen& seen) {
+void check(const Bodies& of, const Options& options, Observation& observed) {
   const auto truth =
       test::oracle_separation({&of.a.primitive, of.a.at}, {&of.b.primitive, of.b.at});
-  const auto p = asked(of, options);
+  const auto p = requested(of, options);
   if (truth) {
     ASSERT_LE(truth->lower, truth->upper + kSlack);
     if (!p) {
       EXPECT_GE(truth->upper, kClearance - kSlack) << "a pair was lost";
       return;
     }
-    ++seen.held;
+    ++observed.held;
     EXPECT_LE(p->d_lower_mm, truth->upper + kSlack);
     EXPECT_GE(p->d_upper_mm, truth->lower - kSlack);
   }
@@ -181,19 +181,19 @@ void check(const Bodies& of, const Options& options, Seen& seen) {
   EXPECT_LE(p->d_lower_mm, p->d_mm);
   EXPECT_LE(p->d_mm, p->d_upper_mm);
   if (p->d_lower_mm > 0)
-    ++seen.apart;
+    ++observed.apart;
   else
     EXPECT_LE(p->d_mm, 0) << "open whether they are apart";
-  if (p->d_upper_mm < 0) ++seen.deep;
-  if (!(p->d_lower_mm > 0) && !(p->d_upper_mm < 0)) ++seen.open;
+  if (p->d_upper_mm < 0) ++observed.deep;
+  if (!(p->d_lower_mm > 0) && !(p->d_upper_mm < 0)) ++observed.open;
   if (p->d_mm < 0)
-    expect_way_out(of, *p);
+    expect_exit_direction(of, *p);
   else
     expect_points_of_gap(of, *p);
 }
 
 TEST(PrimitiveCertificates, HoldTheTruthAndShowIt) {
-  Seen seen;
+  Observation observed;
   for (std::uint64_t seed = 1; seed <= kPairs; ++seed) {
     const Bodies of = draw_bodies(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(of.a.primitive)) +
@@ -201,12 +201,12 @@ TEST(PrimitiveCertificates, HoldTheTruthAndShowIt) {
     constexpr std::array kDistances{-1.0, -1.0, 0.05, 0.5};
     check(of,
           {.tolerances = {.clearance_mm = kClearance}, .contact_distance_mm = kDistances[seed % 4]},
-          seen);
+          observed);
   }
-  EXPECT_GT(seen.held, kPairs / 3);
-  EXPECT_GT(seen.apart, kPairs / 8);
-  EXPECT_GT(seen.open, kPairs / 20);
-  EXPECT_GT(seen.deep, kPairs / 8);
+  EXPECT_GT(observed.held, kPairs / 3);
+  EXPECT_GT(observed.apart, kPairs / 8);
+  EXPECT_GT(observed.open, kPairs / 20);
+  EXPECT_GT(observed.deep, kPairs / 8);
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ struct Tally {
   int crossings = 0, uncertain = 0, lost = 0;
 };
 
-void judge(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
+void tally_pair(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
   std::vector<test::PathSegment> rims = test::rim_of(a.mesh);
   const std::vector<test::PathSegment> rim_b = test::rim_of(b.mesh);
   rims.insert(rims.end(), rim_b.begin(), rim_b.end());
@@ -168,7 +168,7 @@ void judge(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
   m.object("b").body(test::placed(swap ? a.mesh : b.mesh, turn, move));
   Options options;
   options.tolerances.touch_overlap_mm = kOverlap;
-  options.engine.most_regions = 0;
+  options.engine.max_regions = 0;
   const Report report = m.detect(options);
   if (report.pairs.size() == 1) {
     const Pair& p = report.pairs.front();
@@ -185,16 +185,16 @@ void judge(const Drawn& a, const Drawn& b, Scene& scene, Tally& tally) {
 }
 
 template <class Make>
-void expect_all_kept(std::uint64_t seed, Make&& make, int least_share) {
+void expect_all_kept(std::uint64_t seed, Make&& make, int min_share) {
   Tally tally;
   for (int round = 0; round < kRounds && tally.lost < 3; ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
     Scene scene(seed * 1'000'003 + static_cast<std::uint64_t>(round));
     const auto [a, b] = make(scene);
-    judge(a, b, scene, tally);
+    tally_pair(a, b, scene, tally);
   }
   EXPECT_EQ(tally.lost, 0);
-  EXPECT_GE(tally.crossings * 100, kRounds * least_share);
+  EXPECT_GE(tally.crossings * 100, kRounds * min_share);
   EXPECT_LE(tally.uncertain * 100, tally.crossings);
 }
 

@@ -128,17 +128,17 @@ void expect_true(const model::Scene& scene, const std::vector<bool>& drawn,
   ASSERT_EQ(drawing.account.fates.size(), drawn.size());
   for (std::uint32_t o = 0; o < drawn.size(); ++o) {
     const Fate fate = drawing.account.fates[o];
-    const std::set<hlr::State>& seen = states[o];
+    const std::set<hlr::State>& states_of_object = states[o];
     const bool placed = !scene.bodies_of(model::ObjectId{o}).empty();
     EXPECT_EQ(drawn[o], fate != Fate::unselected) << o;
-    EXPECT_EQ(fate == Fate::drawn, seen.contains(hlr::State::visible)) << o;
+    EXPECT_EQ(fate == Fate::drawn, states_of_object.contains(hlr::State::visible)) << o;
     if (fate == Fate::hidden) {
-      EXPECT_TRUE(seen.contains(hlr::State::hidden_by_self) ||
-                  seen.contains(hlr::State::hidden_by_other));
+      EXPECT_TRUE(states_of_object.contains(hlr::State::hidden_by_self) ||
+                  states_of_object.contains(hlr::State::hidden_by_other));
     }
-    EXPECT_TRUE(fate != Fate::clipped || seen.contains(hlr::State::clipped)) << o;
+    EXPECT_TRUE(fate != Fate::clipped || states_of_object.contains(hlr::State::clipped)) << o;
     EXPECT_FALSE((fate == Fate::failed || fate == Fate::left_out) && placed) << o;
-    // What is wrong with an object, or that it makes no line, is told by name.
+    // What is wrong with an object, or that it makes no line, is reported by name.
     const bool wrong = lacking.contains(o) || fate == Fate::degenerate || fate == Fate::failed;
     EXPECT_EQ(named.contains(o), drawn[o] && wrong) << o;
   }
@@ -164,15 +164,15 @@ TEST(Accounting, FatesOfDamagedCrowdsAddUp) {
       for (std::size_t o = 0; o < drawn.size(); ++o) drawn[o] = !draw.one_in(4);
     const auto drawing = hlr::draw(*scene, drawn, view_of(draw), {}, {});
     ASSERT_TRUE(drawing) << drawing.error().text();
-    const auto asked = static_cast<std::uint64_t>(std::count(drawn.begin(), drawn.end(), true));
-    EXPECT_EQ(drawing->account.objects(), asked) << seed;
-    EXPECT_EQ(sum(drawing->account), asked) << seed;
+    const auto selected = static_cast<std::uint64_t>(std::count(drawn.begin(), drawn.end(), true));
+    EXPECT_EQ(drawing->account.objects(), selected) << seed;
+    EXPECT_EQ(sum(drawing->account), selected) << seed;
     EXPECT_EQ(drawing->account.of(Fate::coincident), 0U);
     expect_true(*scene, drawn, *drawing);
 
     const auto paper = drawing::lay_out(*drawing, model, {}, {});
     ASSERT_TRUE(paper) << paper.error().text();
-    EXPECT_EQ(sum(paper->account), asked) << seed;
+    EXPECT_EQ(sum(paper->account), selected) << seed;
     std::set<model::ObjectId> on_paper;
     for (const drawing::Line& line : paper->lines)
       if (line.state == drawing::LineState::visible) on_paper.insert(line.object);

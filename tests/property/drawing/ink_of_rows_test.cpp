@@ -160,9 +160,9 @@ struct Moved {
   /// Up to what rounding to the grid makes of a place.
   [[nodiscard]] bool same_place(const Vec3d& a, const Vec3d& b) const {
     const Vec3d d = a + by - b;
-    const Vec3d seen = d - toward * (dot(d, toward) / dot(toward, toward));
+    const Vec3d projected = d - toward * (dot(d, toward) / dot(toward, toward));
     constexpr double kRounding = 0.05;
-    return dot(seen, seen) < kRounding * kRounding;
+    return dot(projected, projected) < kRounding * kRounding;
   }
   /// Whether each of some lines has its like among others.
   [[nodiscard]] bool have_all(const std::vector<drawing::Line>& lines,

@@ -22,13 +22,13 @@ constexpr int kRounds = test::rounds(700, 60'000);
 
 using Point = std::array<Vec3l, 1>;
 
-ClosestPoints ask(const Point& a, const Point& b) { return closest_points(a[0], b[0]); }
+ClosestPoints closest(const Point& a, const Point& b) { return closest_points(a[0], b[0]); }
 template <std::size_t N>
-ClosestPoints ask(const Point& a, const std::array<Vec3l, N>& b) {
+ClosestPoints closest(const Point& a, const std::array<Vec3l, N>& b) {
   return closest_points(a[0], b);
 }
 template <class A, class B>
-ClosestPoints ask(const A& a, const B& b) {
+ClosestPoints closest(const A& a, const B& b) {
   return closest_points(a, b);
 }
 
@@ -51,7 +51,7 @@ bool strictly_on(const Shape& shape, FeatureMask place, const RationalPoint& p) 
 
 template <class A, class B>
 void check(const A& a, const B& b) {
-  const ClosestPoints c = ask(a, b);
+  const ClosestPoints c = closest(a, b);
   ASSERT_EQ(exact(c.squared), testing::squared_distance(as_mesh(a), as_mesh(b)));
   const auto gap = testing::minus(exact(c.on_b), exact(c.on_a));
   ASSERT_EQ(testing::inner(gap, gap), exact(c.squared));
@@ -62,7 +62,7 @@ void check(const A& a, const B& b) {
 template <class A, class B>
 void check_motion(const A& a, const B& b, Lattice& lattice) {
   const testing::GridMotion m = testing::random_motion(lattice, 3);
-  const ClosestPoints c = ask(a, b), moved = ask(m(a), m(b));
+  const ClosestPoints c = closest(a, b), moved = closest(m(a), m(b));
   const mpq_class scale(static_cast<long>(m.scale));
   ASSERT_EQ(exact(moved.squared), exact(c.squared) * scale * scale);
   ASSERT_EQ(moved.feature_a, c.feature_a);

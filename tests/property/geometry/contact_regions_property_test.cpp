@@ -203,8 +203,8 @@ TEST_P(ContactRegionsProperty, AsTheCellsOfALatticeHaveIt) {
 }
 
 /// Places by joining every two near triangles, which asking for all about a single place does.
-std::optional<std::vector<ContactRegion>> asked(const Subject& x, const Subject& y, double reach,
-                                                SingleRegionDetail one) {
+std::optional<std::vector<ContactRegion>> requested(const Subject& x, const Subject& y,
+                                                    double reach, SingleRegionDetail one) {
   QueryContext work;
   return contact_regions(x.treed(), y.treed(), {.reach = reach, .one = one}, work);
 }
@@ -228,9 +228,9 @@ TEST_P(ContactRegionsProperty, TheShortWayToASinglePlaceCountsAsTheLongOneDoes) 
     // From a touch to more than all that is there.
     const int widest = rng() % 4 == 0 ? 12 : 2;
     const auto reach = static_cast<double>(rng() % static_cast<unsigned>(kCell * widest));
-    const auto full = asked(x, y, reach, SingleRegionDetail::described);
-    const auto counted = asked(x, y, reach, SingleRegionDetail::counted);
-    const auto boxed = asked(x, y, reach, SingleRegionDetail::boxed);
+    const auto full = requested(x, y, reach, SingleRegionDetail::described);
+    const auto counted = requested(x, y, reach, SingleRegionDetail::counted);
+    const auto boxed = requested(x, y, reach, SingleRegionDetail::boxed);
     ASSERT_TRUE(full && counted && boxed);
     ASSERT_EQ(counted->size(), full->size()) << "round " << round;
     ASSERT_EQ(boxed->size(), full->size()) << "round " << round;

@@ -144,11 +144,11 @@ MeetingResult truth_of(const Profile& a, const Profile& b) {
   return truth;
 }
 
-::testing::AssertionResult says_the_same(const MeetingResult& found, const MeetingResult& truth) {
-  const auto told = [](const MeetingResult& r) {
+::testing::AssertionResult is_equivalent(const MeetingResult& found, const MeetingResult& truth) {
+  const auto reported = [](const MeetingResult& r) {
     return std::tuple(r.meeting, r.boundaries_meet, r.a_within_b, r.b_within_a);
   };
-  if (told(found) == told(truth)) return ::testing::AssertionSuccess();
+  if (reported(found) == reported(truth)) return ::testing::AssertionSuccess();
   const auto shown = [](const MeetingResult& r) {
     return std::array{static_cast<int>(r.meeting), static_cast<int>(r.boundaries_meet),
                       static_cast<int>(r.a_within_b), static_cast<int>(r.b_within_a)};
@@ -159,7 +159,7 @@ MeetingResult truth_of(const Profile& a, const Profile& b) {
 
 TEST(CoplanarFacesTest, TurnedBodiesMeetAsTheirProfilesDo) {
   std::size_t flush = 0;
-  std::map<Meeting, std::size_t> seen;
+  std::map<Meeting, std::size_t> case_counts;
   for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
@@ -175,12 +175,12 @@ TEST(CoplanarFacesTest, TurnedBodiesMeetAsTheirProfilesDo) {
     const MeetingResult truth = truth_of(a, b);
     QueryContext work;
     const MeetingResult found = meet(x.treed(), y.treed(), work);
-    ++seen[found.meeting];
-    ASSERT_TRUE(says_the_same(found, truth));
+    ++case_counts[found.meeting];
+    ASSERT_TRUE(is_equivalent(found, truth));
   }
   EXPECT_GT(flush, kRounds / 2);
-  EXPECT_GT(seen[Meeting::touching], kRounds / 50);
-  EXPECT_GT(seen[Meeting::crossing], kRounds / 4);
+  EXPECT_GT(case_counts[Meeting::touching], kRounds / 50);
+  EXPECT_GT(case_counts[Meeting::crossing], kRounds / 4);
 }
 
 /// A prism over a polygon that a point at the origin sees all of, its ends fans round that point;
@@ -209,7 +209,7 @@ IndexedMesh prism(const std::vector<Vec3i>& polygon, int cuts, const Vec3i& at, 
 /// Too few triangles lie in a plane for the rims to be asked.
 constexpr int kCorners = 12, kCuts = 4;
 
-std::vector<Vec3i> seen_from_origin(Draw& draw) {
+std::vector<Vec3i> visible_from_origin(Draw& draw) {
   std::vector<Vec3i> polygon;
   // Many of few radii: sides of two of them lie in one line, or go through each other's corners.
   for (int i = 0; i < kCorners; ++i) {
@@ -271,14 +271,14 @@ TEST(CoplanarFacesTest, ATouchInOnePointIsATouch) {
   }
 }
 
-TEST(CoplanarFacesTest, FinerFansSayTheSameAsCoarseOnes) {
+TEST(CoplanarFacesTest, FinerFansStateTheSameAsCoarseOnes) {
   std::size_t flush = 0;
-  std::map<Meeting, std::size_t> seen;
+  std::map<Meeting, std::size_t> case_counts;
   for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
-    const std::vector<Vec3i> p = seen_from_origin(draw),
-                             q = draw.one_in(4) ? p : seen_from_origin(draw);
+    const std::vector<Vec3i> p = visible_from_origin(draw),
+                             q = draw.one_in(4) ? p : visible_from_origin(draw);
     const auto aside = [&] { return draw.one_in(2) ? 0 : draw.whole(-4, 5) * kCuts * 2000; };
     const Vec3i at{aside(), aside(), draw.whole(-1, 2) * 5000};
     const std::int32_t tall = draw.one_in(2) ? 5000 : 10'000;
@@ -293,12 +293,12 @@ TEST(CoplanarFacesTest, FinerFansSayTheSameAsCoarseOnes) {
       return meet(x.treed(), y.treed(), work);
     };
     const MeetingResult coarse = meeting(1), fine = meeting(kCuts);
-    ++seen[fine.meeting];
-    ASSERT_TRUE(says_the_same(fine, coarse));
+    ++case_counts[fine.meeting];
+    ASSERT_TRUE(is_equivalent(fine, coarse));
   }
   EXPECT_GT(flush, kRounds / 4);
-  EXPECT_GT(seen[Meeting::touching], kRounds / 20);
-  EXPECT_GT(seen[Meeting::crossing], kRounds / 4);
+  EXPECT_GT(case_counts[Meeting::touching], kRounds / 20);
+  EXPECT_GT(case_counts[Meeting::crossing], kRounds / 4);
 }
 
 }  // namespace

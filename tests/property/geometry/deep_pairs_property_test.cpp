@@ -19,8 +19,8 @@ using geometry::Depth;
 
 /// Nothing where the two have no interior in common.
 std::optional<Depth> depth_of(const DeepPair& pair) {
-  const AskedPair asked(pair);
-  return asked.meets() ? std::optional(asked.depth()) : std::nullopt;
+  const DeepPairTest subject(pair);
+  return subject.meets() ? std::optional(subject.depth()) : std::nullopt;
 }
 
 class DeepPairs : public ::testing::TestWithParam<DeepKind> {

@@ -64,7 +64,7 @@ class InsideProperty : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(InsideProperty, PointsOfTriangles) {
-  int seen[8] = {};
+  int case_counts[8] = {};
   for (int round = 0; round < 4 * kRounds; ++round) {
     TriangleCorners t = lattice.triangle();
     if (!testing::spans(t)) continue;
@@ -76,18 +76,18 @@ TEST_P(InsideProperty, PointsOfTriangles) {
     }
     const FeatureMask place = feature_of(t, p);
     ASSERT_EQ(place, testing::true_place(t, exact(p))) << round;
-    ++seen[place];
+    ++case_counts[place];
     const testing::GridMotion m = testing::random_motion(lattice, 9);
     if (m.scale > 1 && p.denominator > 4) continue;
     const Vec3l image = testing::turned(p.numerator, m.symmetry) * m.scale;
     const TriangleCorners near = testing::GridMotion{m.symmetry, m.scale, {}}(t);
     ASSERT_EQ(feature_of(near, {image, p.denominator}), place);
   }
-  for (const int n : seen) EXPECT_GT(n, kRounds / 50);
+  for (const int n : case_counts) EXPECT_GT(n, kRounds / 50);
 }
 
 TEST_P(InsideProperty, PointsOfPolygonsWithHoles) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds; ++round) {
     SCOPED_TRACE(round);
     // Contours that touch, cross, repeat points and double back: the rule is the same.
@@ -98,7 +98,7 @@ TEST_P(InsideProperty, PointsOfPolygonsWithHoles) {
     }
     const ScaledPoint p = random_point(lattice);
     const PointSide truth = true_side(contours, exact(p));
-    ++seen[static_cast<int>(truth)];
+    ++case_counts[static_cast<int>(truth)];
     for (int axis = 0; axis < 3; ++axis) {
       // The same picture, so that it is seen along this axis.
       const auto placed = [&](const Vec3l& q) {
@@ -120,11 +120,11 @@ TEST_P(InsideProperty, PointsOfPolygonsWithHoles) {
       ASSERT_EQ(side_of_polygon(points, first, axis, {placed(p.numerator), p.denominator}), truth);
     }
   }
-  for (const int n : seen) EXPECT_GT(n, kRounds / 50);
+  for (const int n : case_counts) EXPECT_GT(n, kRounds / 50);
 }
 
 TEST_P(InsideProperty, PointsOfPolyhedraWithAndWithoutATree) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds / 30; ++round) {
     SCOPED_TRACE(round);
     const testing::LatticeSolid body = testing::random_pair(lattice.rng()).a;
@@ -145,7 +145,7 @@ TEST_P(InsideProperty, PointsOfPolyhedraWithAndWithoutATree) {
       }
       QueryContext work;
       const PointSide side = side_of_polyhedron(subject.part, p);
-      ++seen[static_cast<int>(side)];
+      ++case_counts[static_cast<int>(side)];
       ASSERT_EQ(side, side_of(subject.treed(), p.numerator, p.denominator, work));
       // On the skin is on a triangle; anything else is in a piece or in none.
       bool on_skin = false, in_piece = false;
@@ -161,7 +161,7 @@ TEST_P(InsideProperty, PointsOfPolyhedraWithAndWithoutATree) {
       }
     }
   }
-  for (const int n : seen) EXPECT_GT(n, 20);
+  for (const int n : case_counts) EXPECT_GT(n, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, InsideProperty, strake::test::seeds(3));

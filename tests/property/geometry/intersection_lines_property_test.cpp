@@ -93,7 +93,7 @@ Lines lines_of(const Subject& a, const Subject& b, std::int64_t flush = 0) {
 }
 
 TEST(IntersectionLinesTest, AreThoseOfTheTriangles) {
-  std::size_t crossing = 0, apart = 0, lines_seen = 0;
+  std::size_t crossing = 0, apart = 0, lines_found = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     std::mt19937_64 rng{seed};
     const testing::LatticePair pair = testing::random_pair(rng);
@@ -125,11 +125,11 @@ TEST(IntersectionLinesTest, AreThoseOfTheTriangles) {
     ASSERT_EQ(lines_of(b, a), lines) << "exchanged";
     const Subject other(testing::shuffled(testing::subdivided(ma), rng));
     ASSERT_EQ(lines_of(other, b), lines) << "cut into other triangles";
-    lines_seen += lines.size();
+    lines_found += lines.size();
   }
   EXPECT_GT(crossing, kSeeds / 2);
   EXPECT_GT(apart, kSeeds / 10);
-  EXPECT_GT(lines_seen, kSeeds);
+  EXPECT_GT(lines_found, kSeeds);
 }
 
 /// Two plates askew by a few units that cross along a line across their faces.

@@ -100,12 +100,12 @@ Bodies bodies(std::uint64_t seed) {
   return made;
 }
 
-struct Asked {
+struct SegmentQuery {
   const Subject& a;
   const Subject& b;
   OrientedBox frame_a, frame_b;
 
-  Asked(const Subject& x, const Subject& y)
+  SegmentQuery(const Subject& x, const Subject& y)
       : a(x), b(y), frame_a(make_oriented_box(x.part)), frame_b(make_oriented_box(y.part)) {}
 
   [[nodiscard]] Lines quick(std::int64_t flush, QueryContext& work) const {
@@ -132,26 +132,26 @@ struct Asked {
 
 TEST(IntersectionSegmentsTest, LeavesOutNothingThatCrosses) {
   std::size_t lines = 0, parted = 0, flush_on_one_side = 0;
-  std::uint64_t looked_at = 0, all = 0;
+  std::uint64_t visited = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const Bodies made = bodies(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + " " + made.recipe);
     // Of another origin, at the same place.
     const Subject a(made.a), b(moved(made.b, {-3, 5, -7}), {3, -5, 7});
-    const Asked asked(a, b);
+    const SegmentQuery query(a, b);
     for (const std::int64_t flush : {0, 3}) {
       QueryContext quick, slow;
-      const Lines expected = asked.of_all(flush, slow);
-      ASSERT_EQ(asked.quick(flush, quick), expected) << "faces that touch within " << flush;
+      const Lines expected = query.of_all(flush, slow);
+      ASSERT_EQ(query.quick(flush, quick), expected) << "faces that touch within " << flush;
       lines += expected.size();
-      looked_at += quick.triangle_pairs;
+      visited += quick.triangle_pairs;
       all += slow.triangle_pairs;
-      if (asked.parted()) {
+      if (query.parted()) {
         ++parted;
         ASSERT_TRUE(expected.empty()) << "a plane parts them";
       }
-      if (asked.on_one_side()) {
-        if (asked.meet_at_all()) ++flush_on_one_side;
+      if (query.on_one_side()) {
+        if (query.meet_at_all()) ++flush_on_one_side;
         ASSERT_TRUE(expected.empty()) << "each face has the other on one side";
       }
     }
@@ -159,7 +159,7 @@ TEST(IntersectionSegmentsTest, LeavesOutNothingThatCrosses) {
   EXPECT_GT(lines, kSeeds);
   EXPECT_GT(parted, kSeeds / 50);
   EXPECT_GT(flush_on_one_side, kSeeds / 50);
-  EXPECT_LT(looked_at * 8, all);
+  EXPECT_LT(visited * 8, all);
 }
 
 /// Parts of so many triangles are walked by their trees.
@@ -173,11 +173,11 @@ TEST(IntersectionSegmentsTest, LargePartsAreWalked) {
     }
     const Subject a(meshes[0]), b(meshes[1]);
     ASSERT_TRUE(needs_bvhs(a.part, b.part));
-    const Asked asked(a, b);
+    const SegmentQuery query(a, b);
     QueryContext quick, slow;
-    const Lines expected = asked.of_all(3, slow);
+    const Lines expected = query.of_all(3, slow);
     EXPECT_FALSE(expected.empty());
-    EXPECT_EQ(asked.quick(3, quick), expected);
+    EXPECT_EQ(query.quick(3, quick), expected);
     EXPECT_LT(quick.triangle_pairs * 100, slow.triangle_pairs);
   }
 }
@@ -193,8 +193,8 @@ TEST(IntersectionSegmentsTest, TubesThatFitCostNoPairOfTriangles) {
   };
   const Subject pipe(tube(57'000, 50'000)), insulation(tube(107'000, 57'000));
   QueryContext work;
-  EXPECT_TRUE(Asked(pipe, insulation).quick(3, work).empty());
-  EXPECT_TRUE(Asked(insulation, pipe).quick(3, work).empty());
+  EXPECT_TRUE(SegmentQuery(pipe, insulation).quick(3, work).empty());
+  EXPECT_TRUE(SegmentQuery(insulation, pipe).quick(3, work).empty());
   EXPECT_EQ(work.triangle_pairs, 0U);
 }
 

@@ -181,15 +181,15 @@ TEST_P(LowerDimensionalPair, AgainstPrimitivesBySamples) {
     if (!s) continue;
     inside += s->inside ? 1 : 0;
     wide += s->upper - s->lower > 1 ? 1 : 0;
-    double least_low = INFINITY, least_high = INFINITY;
+    double min_low = INFINITY, min_high = INFINITY;
     for (const Vec3d& p : thin.samples) {
       const auto point = lower_dimensional_separation(*make_point_body(p), {&primitive, &at});
       ASSERT_TRUE(point);
-      least_low = std::min(least_low, point->lower);
-      least_high = std::min(least_high, point->upper);
+      min_low = std::min(min_low, point->lower);
+      min_high = std::min(min_high, point->upper);
     }
     // Signed distance changes by no more than the way; samples are snapped.
-    expect_within(*s, least_low - thin.spacing * kGridPerMm - 2, least_high + 2);
+    expect_within(*s, min_low - thin.spacing * kGridPerMm - 2, min_high + 2);
     if (HasFatalFailure()) return;
     // The witness stands where it says.
     const Vec3d way = s->on_other - s->on_body;
@@ -284,7 +284,7 @@ TEST_P(LowerDimensionalPair, CirclesOnOneAxis) {
 
 /// A lattice body and thin bodies with corners on it, in rationals.
 TEST_P(LowerDimensionalPair, LatticeBodiesByRationals) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds / 3; ++round) {
     SCOPED_TRACE(round);
     constexpr int kScale = 16;
@@ -340,15 +340,15 @@ TEST_P(LowerDimensionalPair, LatticeBodiesByRationals) {
       spacing = std::max(spacing, std::sqrt(dot(e, e)) / steps);
     }
     if (deepest > 0) {
-      ++seen[0];
+      ++case_counts[0];
       expect_within(s, -deepest - spacing, -deepest);
       ASSERT_LE(s.upper - s.lower, 1.1);
     } else if (apart == 0) {
       // On the skin, or inside between the sampled points.
-      ++seen[1];
+      ++case_counts[1];
       expect_within(s, -spacing, 0);
     } else if (deepest < 0) {
-      ++seen[2];
+      ++case_counts[2];
       ASSERT_LE(mpq_class(s.lower) * mpq_class(s.lower), apart);
       ASSERT_GE(mpq_class(s.upper) * mpq_class(s.upper), apart);
       ASSERT_LE(s.upper - s.lower, 1e-12 * s.upper);
@@ -357,7 +357,7 @@ TEST_P(LowerDimensionalPair, LatticeBodiesByRationals) {
     }
     if (HasFatalFailure()) return;
   }
-  for (const int n : seen) EXPECT_GT(n, kRounds / 60);
+  for (const int n : case_counts) EXPECT_GT(n, kRounds / 60);
 }
 
 /// Arcs beside and in meshes, by the samples' own answers.

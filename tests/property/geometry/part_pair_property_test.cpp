@@ -130,7 +130,7 @@ class PartPairProperty : public ::testing::TestWithParam<std::uint64_t> {
   }
 };
 
-TEST_P(PartPairProperty, SolidsMeetAsTheirVolumesSay) {
+TEST_P(PartPairProperty, SolidsMeetAsTheirVolumesState) {
   for (int round = 0; round < kRounds; ++round) {
     const LatticePair pair = testing::random_pair(rng);
     SCOPED_TRACE(label(pair.recipe, round));
@@ -141,7 +141,7 @@ TEST_P(PartPairProperty, SolidsMeetAsTheirVolumesSay) {
   }
 }
 
-TEST_P(PartPairProperty, SheetsMeetSolidsAsTheirAreasSay) {
+TEST_P(PartPairProperty, SheetsMeetSolidsAsTheirAreasState) {
   for (int round = 0; round < kRounds; ++round) {
     const LatticeSolid body = testing::random_pair(rng).a;
     const IndexedMesh sheet = testing::random_sheet(rng);
@@ -155,7 +155,7 @@ TEST_P(PartPairProperty, SheetsMeetSolidsAsTheirAreasSay) {
   }
 }
 
-TEST_P(PartPairProperty, SheetsCoverSheetsAsTheirAreasSay) {
+TEST_P(PartPairProperty, SheetsCoverSheetsAsTheirAreasState) {
   for (int round = 0; round < kRounds; ++round) {
     const IndexedMesh first = testing::random_sheet(rng);
     IndexedMesh second = testing::random_sheet(rng);
@@ -228,7 +228,7 @@ PointSide side_of_tetrahedron(const Tetrahedron& t, const std::array<mpq_class, 
   return on_face ? PointSide::on_boundary : PointSide::inside;
 }
 
-TEST_P(PartPairProperty, PointsLieWhereThePiecesSay) {
+TEST_P(PartPairProperty, PointsLieWhereThePiecesState) {
   for (int round = 0; round < kRounds; ++round) {
     const LatticeSolid body = testing::random_pair(rng).a;
     const Subject subject(body.mesh);

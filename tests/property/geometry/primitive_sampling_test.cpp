@@ -176,42 +176,42 @@ void check_inside(const PrimitiveSeparation& s, const Sampled& found) {
 auto first(std::uint64_t count) { return std::views::iota(std::uint64_t{1}, count + 1); }
 
 /// How many pairs were seen of each sort.
-struct Seen {
+struct Observation {
   std::uint64_t answered = 0, apart = 0, meeting = 0, held = 0;
 };
 
 /// Draws a pair for each seed and holds its answer against samples; `more(seed, answer, samples)`
 /// for each that was answered.
 template <class Seeds, class Draw, class More>
-Seen check_pairs(const Seeds& seeds, const Draw& draw, const More& more) {
-  Seen seen;
+Observation check_pairs(const Seeds& seeds, const Draw& draw, const More& more) {
+  Observation observed;
   for (const std::uint64_t seed : seeds) {
     const auto [a, b] = draw(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ' ' + std::string(kind_name(a.primitive)) +
                  " and " + std::string(kind_name(b.primitive)));
     const auto s = primitive_separation(a.placed(), b.placed());
     if (!s) continue;
-    ++seen.answered;
+    ++observed.answered;
     std::mt19937_64 random(seed);
     const Sampled found = sample(a, b, random);
     check_inside(*s, found);
-    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++seen.held;
+    if (s->a_inside_b > 0 || s->b_inside_a > 0) ++observed.held;
     if (s->lower > 0) {
-      ++seen.apart;
+      ++observed.apart;
       check_apart(a, b, *s, found);
     } else if (s->upper < 0) {
-      ++seen.meeting;
+      ++observed.meeting;
       check_meeting(a, b, *s, found);
     }
     more(seed, *s, found);
   }
-  return seen;
+  return observed;
 }
 
 TEST(PrimitiveSampling, NoPointOfTheBodiesContradictsABracket) {
   std::uint64_t sampled_deep = 0;
   std::array<std::uint64_t, kKinds * kKinds> of_kinds{};
-  const Seen seen =
+  const Observation observed =
       check_pairs(first(kPairs), draw_bodies,
                   [&](std::uint64_t seed, const PrimitiveSeparation& s, const Sampled& found) {
                     ++of_kinds[seed % (kKinds * kKinds)];
@@ -221,21 +221,22 @@ TEST(PrimitiveSampling, NoPointOfTheBodiesContradictsABracket) {
                     }
                     if (s.upper < 0 && found.deepest > 0.5 * -s.d * kMmPerGrid) ++sampled_deep;
                   });
-  EXPECT_GT(seen.answered, kPairs * 9 / 10);
-  EXPECT_GT(seen.apart, kPairs / 4);
-  EXPECT_GT(seen.meeting, kPairs / 4);
-  EXPECT_GT(seen.held, kPairs / 200);
-  EXPECT_GT(sampled_deep, seen.meeting / 2) << "the samples reach where it is deep";
+  EXPECT_GT(observed.answered, kPairs * 9 / 10);
+  EXPECT_GT(observed.apart, kPairs / 4);
+  EXPECT_GT(observed.meeting, kPairs / 4);
+  EXPECT_GT(observed.held, kPairs / 200);
+  EXPECT_GT(sampled_deep, observed.meeting / 2) << "the samples reach where it is deep";
   for (const std::uint64_t count : of_kinds) EXPECT_GT(count, kPairs / (kKinds * kKinds) / 3);
 }
 
 TEST(PrimitiveSampling, NoPointOfSlenderBodiesContradictsABracket) {
-  const Seen seen = check_pairs(first(kSlenderPairs), draw_slender,
-                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
-  EXPECT_GT(seen.answered, kSlenderPairs * 8 / 10);
-  EXPECT_GT(seen.apart, kSlenderPairs / 8);
-  EXPECT_GT(seen.meeting, kSlenderPairs / 8);
-  EXPECT_GT(seen.held, kSlenderPairs / 200);
+  const Observation observed =
+      check_pairs(first(kSlenderPairs), draw_slender,
+                  [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
+  EXPECT_GT(observed.answered, kSlenderPairs * 8 / 10);
+  EXPECT_GT(observed.apart, kSlenderPairs / 8);
+  EXPECT_GT(observed.meeting, kSlenderPairs / 8);
+  EXPECT_GT(observed.held, kSlenderPairs / 200);
 }
 
 /// Bodies in a ring whose place nearest to the skin is no corner, no end and no middle: where the
@@ -243,9 +244,9 @@ TEST(PrimitiveSampling, NoPointOfSlenderBodiesContradictsABracket) {
 TEST(PrimitiveSampling, BodiesLieNoDeeperInRingsThanTheirNearestPlace) {
   constexpr std::array<std::uint64_t, 9> kSeeds{11338, 12058, 22097, 39274, 79208,
                                                 87649, 93701, 97514, 99620};
-  const Seen seen = check_pairs(kSeeds, draw_slender,
-                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
-  EXPECT_EQ(seen.held, kSeeds.size());
+  const Observation observed = check_pairs(
+      kSeeds, draw_slender, [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
+  EXPECT_EQ(observed.held, kSeeds.size());
 }
 
 /// Next to either end of a sweep of any angle the way out is through that end, and deep inside one

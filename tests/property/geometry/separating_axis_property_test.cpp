@@ -80,12 +80,12 @@ class SeparatingAxisProperty : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(SeparatingAxisProperty, TrianglesAgainstDistanceAndContact) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds * 3; ++round) {
     SCOPED_TRACE(round);
     const TriangleCorners t = lattice.triangle(), u = lattice.triangle();
     const SeparatingAxis s = separating_axis(t, u);
-    ++seen[static_cast<int>(s.separation)];
+    ++case_counts[static_cast<int>(s.separation)];
     check_axis(s, {t.begin(), t.end()}, {u.begin(), u.end()});
     check_swap(t, u);
     ASSERT_EQ(s.separation == Separation::apart,
@@ -97,7 +97,7 @@ TEST_P(SeparatingAxisProperty, TrianglesAgainstDistanceAndContact) {
     ASSERT_EQ(s.separation == Separation::overlapping,
               c.touch == Touch::segment && !c.coplanar && c.edge_a < 0 && c.edge_b < 0);
   }
-  for (const int n : seen) EXPECT_GT(n, kRounds / 10);
+  for (const int n : case_counts) EXPECT_GT(n, kRounds / 10);
 }
 
 /// A box by its corners and as tetrahedra.
@@ -135,7 +135,7 @@ testing::IndexedMesh skin(const Parallelepiped& p) {
 }
 
 TEST_P(SeparatingAxisProperty, BoxesAgainstCommonVolumeAndDistance) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds / 5; ++round) {
     SCOPED_TRACE(round);
     const auto random_box = [&] {
@@ -147,7 +147,7 @@ TEST_P(SeparatingAxisProperty, BoxesAgainstCommonVolumeAndDistance) {
     };
     const Parallelepiped a = random_box(), b = random_box();
     const SeparatingAxis s = separating_axis(a.box, b.box);
-    ++seen[static_cast<int>(s.separation)];
+    ++case_counts[static_cast<int>(s.separation)];
     check_axis(s, a.points, b.points);
     check_swap(a.box, b.box);
     ASSERT_EQ(s.separation == Separation::overlapping,
@@ -168,7 +168,7 @@ TEST_P(SeparatingAxisProperty, BoxesAgainstCommonVolumeAndDistance) {
     check_swap(ConvexSurface{a.points, a.triangles}, ConvexSurface{b.points, b.triangles});
     if (HasFatalFailure()) return;
   }
-  for (const int n : seen) EXPECT_GT(n, 0);
+  for (const int n : case_counts) EXPECT_GT(n, 0);
 }
 
 TEST_P(SeparatingAxisProperty, AxisParallelBoxes) {
@@ -193,7 +193,7 @@ TEST_P(SeparatingAxisProperty, AxisParallelBoxes) {
 
 /// Points, segments, polygons and bodies against each other.
 TEST_P(SeparatingAxisProperty, ConvexShapesOfEveryDimension) {
-  int seen[3] = {};
+  int case_counts[3] = {};
   for (int round = 0; round < kRounds; ++round) {
     SCOPED_TRACE(round);
     const auto shape = [&](Points& points, std::vector<Triangle>& triangles) {
@@ -208,7 +208,7 @@ TEST_P(SeparatingAxisProperty, ConvexShapesOfEveryDimension) {
     shape(b, of_b);
     // A tetrahedron's inside is no part of its triangles: compare with whole tetrahedra.
     const SeparatingAxis s = separating_axis(ConvexSurface{a, of_a}, ConvexSurface{b, of_b});
-    ++seen[static_cast<int>(s.separation)];
+    ++case_counts[static_cast<int>(s.separation)];
     check_axis(s, a, b);
     const auto mesh = [](const Points& points, const std::vector<Triangle>& triangles) {
       if (triangles.empty()) return as_mesh(points);
@@ -238,7 +238,7 @@ TEST_P(SeparatingAxisProperty, ConvexShapesOfEveryDimension) {
       ASSERT_EQ(width_of(t), width_of(s) * static_cast<long>(m.scale) * static_cast<long>(m.scale));
     }
   }
-  for (const int n : seen) EXPECT_GT(n, kRounds / 50);
+  for (const int n : case_counts) EXPECT_GT(n, kRounds / 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SeparatingAxisProperty, strake::test::seeds(3));

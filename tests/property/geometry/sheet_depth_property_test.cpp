@@ -101,13 +101,13 @@ IndexedMesh random_sheet(Draw& draw, bool grid) {
 
 /// The depth of one stretch by definition, at points along it.
 struct Sampled {
-  double most = 0, missed = 0;  ///< and what may lie between two points
+  double most = 0, uncovered = 0;  ///< and what may lie between two points
 };
 
 Sampled sampled(const DoubleSegment& at, const Subject& a, const Subject& b) {
   constexpr int kPoints = 64;
   const auto rim_a = boundary_edges(a.part), rim_b = boundary_edges(b.part);
-  Sampled s{.most = 0, .missed = length(at[1] - at[0]) / (2 * kPoints)};
+  Sampled s{.most = 0, .uncovered = length(at[1] - at[0]) / (2 * kPoints)};
   for (int i = 0; i <= kPoints; ++i) {
     const Vec3d p = at[0] + (at[1] - at[0]) * (static_cast<double>(i) / kPoints);
     s.most = std::max(s.most, std::min(brute_distance(p, rim_a), brute_distance(p, rim_b)));
@@ -135,7 +135,7 @@ TEST_P(SheetDepths, AreAsDeepAsTheirStretches) {
     for (std::uint32_t i = 0; i < curve.segments.size(); ++i) {
       const Sampled brute = sampled(curve.segments[i], a, b);
       const Depth d = crossing.depth_along(std::array{i}, {}, work);
-      ASSERT_LE(d.lower, brute.most + brute.missed + 1);
+      ASSERT_LE(d.lower, brute.most + brute.uncovered + 1);
       ASSERT_GE(d.upper, brute.most - 1);
       ASSERT_LE(d.upper - d.lower, std::max(8.1, 0.0002 * d.upper));
       deepest = std::max(deepest, d.value);

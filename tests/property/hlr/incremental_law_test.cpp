@@ -28,7 +28,7 @@ using test::some_view;
 using test::with_rules;
 
 /// One state of a model, as a view sees it.
-struct Seen {
+struct Observation {
   std::unique_ptr<model::Model> model;
   model::Scene scene;
   std::vector<bool> drawn;
@@ -37,9 +37,9 @@ struct Seen {
   hlr::Signatures signatures;
 };
 
-Seen seen(const ChangingModel& changing, const hlr::View& view, const hlr::Options& options,
-          const parallel::Context& context) {
-  Seen state;
+Observation observe(const ChangingModel& changing, const hlr::View& view,
+                    const hlr::Options& options, const parallel::Context& context) {
+  Observation state;
   state.model = std::make_unique<model::Model>(changing.build());
   state.scene = model::make_scene(*state.model, {.sag_mm = 0.3}, context).value();
   state.drawn = changing.drawn();
@@ -50,7 +50,7 @@ Seen seen(const ChangingModel& changing, const hlr::View& view, const hlr::Optio
   return state;
 }
 
-std::vector<std::uint32_t> mapped(const Seen& before, const Seen& now) {
+std::vector<std::uint32_t> mapped(const Observation& before, const Observation& now) {
   std::map<std::uint64_t, std::uint32_t> number;
   for (std::uint32_t o = 0; o < now.identities.size(); ++o) number[now.identities[o]] = o;
   std::vector<std::uint32_t> result;
@@ -112,7 +112,7 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
   std::vector<std::unique_ptr<parallel::Team>> teams;
   for (const unsigned threads : kThreads)
     teams.push_back(std::make_unique<parallel::Team>(threads));
-  std::uint64_t followed = 0, sectioned = 0, solved = 0, all = 0, told = 0;
+  std::uint64_t followed = 0, sectioned = 0, solved = 0, all = 0, reported = 0;
   for (std::uint64_t seed = 1; seed <= kSequences; ++seed) {
     Draw draw(seed);
     ChangingModel changing(seed * 77, 12 + draw.below(50));
@@ -120,13 +120,13 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
     const hlr::Options options = some_options(draw);
     const bool has_rules = draw.one_in(2);
     const auto rules = [&] { return has_rules ? with_rules(options, changing) : options; };
-    Seen before = seen(changing, view, rules(), {});
+    Observation before = observe(changing, view, rules(), {});
     auto drawing = hlr::draw(before.scene, before.drawn, view, before.options, {});
     ASSERT_TRUE(drawing.has_value()) << "seed " << seed << ": " << drawing.error().message;
     for (std::uint64_t step = 0; step < kSteps; ++step) {
       changing.edit();
       const parallel::Context context{.team = teams[(seed + step) % teams.size()].get()};
-      Seen now = seen(changing, view, rules(), context);
+      Observation now = observe(changing, view, rules(), context);
       ASSERT_EQ(now.signatures.view, before.signatures.view);
       const auto full = hlr::draw(now.scene, now.drawn, view, now.options, {});
       const std::vector<std::uint32_t> numbers = mapped(before, now);
@@ -139,7 +139,7 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
       ASSERT_EQ(difference(*full, redrawn->drawing), "")
           << "seed " << seed << ", step " << step << (redrawn->in_full ? ", in full" : "");
       ASSERT_TRUE(is_untouched_as_before(then, *redrawn)) << "seed " << seed << ", step " << step;
-      if (!redrawn->touched.empty()) ++told;
+      if (!redrawn->touched.empty()) ++reported;
       ASSERT_EQ(redrawn->in_full, !redrawn->why.empty());
       if (!redrawn->in_full) {
         ++followed;
@@ -154,7 +154,7 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
   EXPECT_GT(2 * followed, kSequences * kSteps);
   EXPECT_GT(8 * sectioned, kSequences * kSteps);
   EXPECT_LT(3 * solved, all);
-  EXPECT_GT(8 * told, kSequences * kSteps);
+  EXPECT_GT(8 * reported, kSequences * kSteps);
 }
 
 void add_box(ChangingModel& changing, const geometry::Vec3d& lo, const geometry::Vec3d& hi) {
@@ -166,7 +166,7 @@ void add_box(ChangingModel& changing, const geometry::Vec3d& lo, const geometry:
 }
 
 /// Draws what changed from one state to the next; the result equals the drawing made anew.
-hlr::Redrawn followed(const Seen& before, const Seen& now, const hlr::View& view) {
+hlr::Redrawn followed(const Observation& before, const Observation& now, const hlr::View& view) {
   const auto drawing = hlr::draw(before.scene, before.drawn, view, {}, {}).value();
   const auto full = hlr::draw(now.scene, now.drawn, view, {}, {}).value();
   auto redrawn = hlr::draw_changes(now.scene, now.drawn, view, {},
@@ -186,9 +186,9 @@ TEST(IncrementalLaw, LinesFarFromAllEdgesFollow) {
   // Enough beside them for a change to be a small one.
   for (int i = 0; i < 20; ++i) add_box(changing, {1000.0 + 10 * i, 0, 0}, {1005.0 + 10 * i, 5, 5});
   const hlr::View view{.direction = {0, 0, 1}};
-  const Seen before = seen(changing, view, {}, {});
+  const Observation before = observe(changing, view, {}, {});
   changing.objects()[2].bodies[0].placement.translation = {-90, 0, 0};
-  const hlr::Redrawn redrawn = followed(before, seen(changing, view, {}, {}), view);
+  const hlr::Redrawn redrawn = followed(before, observe(changing, view, {}, {}), view);
   EXPECT_EQ(redrawn.objects_solved, 3U);
   EXPECT_FALSE(redrawn.in_full);
 }
@@ -201,9 +201,9 @@ TEST(IncrementalLaw, HatchesFollowWhatIsFarFromThem) {
   for (int i = 0; i < 20; ++i) add_box(changing, {1000.0 + 10 * i, 0, 0}, {1005.0 + 10 * i, 5, 4});
   hlr::View view{.direction = {0, 0, 1}};
   view.sections.push_back({{0, 0, 1}, {0, 0, 5000}});
-  const Seen before = seen(changing, view, {}, {});
+  const Observation before = observe(changing, view, {}, {});
   changing.objects()[0].bodies[0].placement.translation = {0, 50, 0};
-  const hlr::Redrawn redrawn = followed(before, seen(changing, view, {}, {}), view);
+  const hlr::Redrawn redrawn = followed(before, observe(changing, view, {}, {}), view);
   EXPECT_EQ(redrawn.objects_solved, 3U);
   EXPECT_FALSE(redrawn.in_full);
 }
@@ -214,19 +214,19 @@ TEST(IncrementalLaw, TheSolidAroundTheEyeIsReported) {
   for (int i = 0; i < 20; ++i) add_box(changing, {10.0 * i, 0, 0}, {10.0 * i + 5, 5, 5});
   hlr::View view{.direction = {0, -1, 0}};
   view.perspective = {.eye = {2000, 2000, 2000}, .target = {2000, 9000, 2000}, .near_mm = 1};
-  const Seen before = seen(changing, view, {}, {});
+  const Observation before = observe(changing, view, {}, {});
   changing.objects()[0].name = "another name";
-  const Seen renamed = seen(changing, view, {}, {});
+  const Observation renamed = observe(changing, view, {}, {});
   const hlr::Redrawn of_names = followed(before, renamed, view);
   EXPECT_EQ(of_names.drawing.diagnostics.count("eye-in-solid"), 1U);
   EXPECT_EQ(of_names.edges_solved, 0U);
   EXPECT_FALSE(of_names.in_full);
   // Behind the eye nothing is drawn, and nothing can be hidden.
   changing.objects()[9].bodies[0].placement.translation = {0, -50, 0};
-  const Seen behind = seen(changing, view, {}, {});
+  const Observation behind = observe(changing, view, {}, {});
   EXPECT_EQ(followed(renamed, behind, view).drawing.diagnostics.count("eye-in-solid"), 1U);
   changing.objects()[9].bodies[0].placement.translation = {0, -60, 0};
-  const Seen farther = seen(changing, view, {}, {});
+  const Observation farther = observe(changing, view, {}, {});
   const hlr::Redrawn redrawn = followed(behind, farther, view);
   EXPECT_EQ(redrawn.drawing.diagnostics.count("eye-in-solid"), 1U);
   EXPECT_FALSE(redrawn.in_full);
@@ -238,7 +238,7 @@ TEST(IncrementalLaw, NothingIsSolvedWhereNothingChanged) {
     const ChangingModel changing(seed, 30);
     const hlr::View view = some_view(draw);
     const hlr::Options options = some_options(draw);
-    const Seen state = seen(changing, view, options, {});
+    const Observation state = observe(changing, view, options, {});
     const auto drawing = hlr::draw(state.scene, state.drawn, view, options, {}).value();
     const auto again =
         hlr::draw_changes(state.scene, state.drawn, view, options,
@@ -253,7 +253,7 @@ TEST(IncrementalLaw, NothingIsSolvedWhereNothingChanged) {
 
 TEST(IncrementalLaw, MappingsThatDoNotFitAreRefused) {
   const ChangingModel changing(5, 6);
-  const Seen state = seen(changing, {}, {}, {});
+  const Observation state = observe(changing, {}, {}, {});
   const auto drawing = hlr::draw(state.scene, state.drawn, {}, {}, {}).value();
   const auto boxes = state.signatures.boxes;
   const auto code = [&](const std::vector<std::uint32_t>& now, std::size_t count) {

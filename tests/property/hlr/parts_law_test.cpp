@@ -42,9 +42,9 @@ class SplitView {
     sections_ = hlr::prepare_sections({scene_, drawn_, view_, options_}, {}).value();
   }
 
-  [[nodiscard]] std::vector<hlr::ViewPart> split(std::uint64_t most_bytes) const {
+  [[nodiscard]] std::vector<hlr::ViewPart> split(std::uint64_t max_bytes) const {
     const std::vector<std::uint32_t> bytes(model_.objects.size(), 1000);
-    return hlr::split_view({view_, options_, whole_.drawn.box, whole_.boxes, bytes}, most_bytes, {})
+    return hlr::split_view({view_, options_, whole_.drawn.box, whole_.boxes, bytes}, max_bytes, {})
         .value();
   }
 
@@ -56,11 +56,11 @@ class SplitView {
     for (std::size_t k = 0; k < parts.size(); ++k)
       EXPECT_TRUE(join.expect(counts_of(solved[k], parts[k]), parts[k].objects));
     EXPECT_TRUE(join.make_room(options_, {}));
-    Diagnostics said;
+    Diagnostics first_diagnostics;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       EXPECT_TRUE(
-          join.add(solved[k], counts_of(solved[k], parts[k]), parts[k].objects, parts[k].asked));
-      said = solved[k].diagnostics;
+          join.add(solved[k], counts_of(solved[k], parts[k]), parts[k].objects, parts[k].to_solve));
+      first_diagnostics = solved[k].diagnostics;
     }
     hlr::Drawing drawing = std::move(join).finish(scene_, drawn_, {}).value();
     drawing.origin = solved.back().origin;
@@ -72,7 +72,7 @@ class SplitView {
     drawing.hatches = sections_.hatches;
     drawing.counters.uncut_objects = sections_.uncut_objects;
     drawing.diagnostics = sections_.diagnostics;
-    drawing.diagnostics.append(said);
+    drawing.diagnostics.append(first_diagnostics);
     hlr::report_defects(model_, drawing.account, drawing.diagnostics);
     return drawing;
   }
@@ -112,7 +112,7 @@ class SplitView {
     const model::Scene scene = model::make_scene(model, {.sag_mm = 0.3}, context).value();
     const std::vector<hlr::Hatch> hatches = of(sections_.hatches, part.objects);
     hlr::WholeView whole = whole_.view_of(hatches);
-    whole.asked = part.asked;
+    whole.to_solve = part.to_solve;
     whole.tessellation.any = whole_.tessellation.any;
     whole.tessellation.finer.resize(scene.shapes.size());
     for (const model::GridBody& body : scene.bodies)
@@ -122,7 +122,7 @@ class SplitView {
     options.uncut = of(options_.uncut, part.objects);
     const std::vector<bool> drawn(part.objects.size(), true);
     hlr::Drawing drawing = hlr::solve_part({scene, drawn, view_, options, &whole}, context).value();
-    drawing.account = hlr::account_of(scene, part.asked, drawing, context).value();
+    drawing.account = hlr::account_of(scene, part.to_solve, drawing, context).value();
     return drawing;
   }
 
@@ -139,7 +139,7 @@ constexpr auto kModels = test::rounds<std::uint64_t>(25, 2000);
 
 TEST(PartsLaw, APartedDrawingIsTheDrawingOfTheWhole) {
   parallel::Team team(3);
-  std::uint64_t parts = 0, sectioned = 0, seen_from = 0, shared = 0;
+  std::uint64_t parts = 0, sectioned = 0, in_perspective = 0, shared = 0;
   for (std::uint64_t seed = 1; seed <= kModels; ++seed) {
     Draw draw(seed * 31);
     const ChangingModel changing(seed * 1009, 20 + draw.below(120));
@@ -160,16 +160,16 @@ TEST(PartsLaw, APartedDrawingIsTheDrawingOfTheWhole) {
           << "seed " << seed << ", " << cut.size() << " parts";
       parts += cut.size();
       for (const hlr::ViewPart& part : cut)
-        shared += static_cast<std::uint64_t>(std::ranges::count(part.asked, false));
+        shared += static_cast<std::uint64_t>(std::ranges::count(part.to_solve, false));
     }
     if (!view.sections.empty()) ++sectioned;
-    if (view.perspective) ++seen_from;
+    if (view.perspective) ++in_perspective;
   }
   // Few objects lie in one part alone, and few are in all.
   EXPECT_GT(parts, 6 * kModels);
   EXPECT_GT(shared, 20 * kModels);
   EXPECT_GT(sectioned, kModels / 5);
-  EXPECT_GT(seen_from, kModels / 10);
+  EXPECT_GT(in_perspective, kModels / 10);
 }
 
 /// Plates of one outline, one behind the other in no order: each half of them needs nearly all as
@@ -190,12 +190,12 @@ TEST(SplitView, LeavesTogetherWhatIsNoSmallerInHalves) {
   const hlr::Options options;
   const auto split = [&](std::uint64_t most) {
     const auto parts = hlr::split_view({view, options, drawn, boxes, bytes}, most, {}).value();
-    std::uint64_t all = 0, asked = 0;
+    std::uint64_t all = 0, to_solve = 0;
     for (const hlr::ViewPart& part : parts) {
       all += part.bytes;
-      asked += static_cast<std::uint64_t>(std::ranges::count(part.asked, true));
+      to_solve += static_cast<std::uint64_t>(std::ranges::count(part.to_solve, true));
     }
-    EXPECT_EQ(asked, boxes.size());
+    EXPECT_EQ(to_solve, boxes.size());
     return all;
   };
   EXPECT_LT(split(std::uint64_t{128} << 20U), 3 * split(std::uint64_t{1} << 40U));

@@ -74,7 +74,8 @@ void cut_beside(TriangleMesh& mesh, std::size_t number, std::size_t side, double
 }
 
 /// Whether two drawings show as much of each kind in each state, but for specks.
-::testing::AssertionResult look_alike(const test::DrawnLengths& is, const test::DrawnLengths& was) {
+::testing::AssertionResult have_equal_lengths(const test::DrawnLengths& is,
+                                              const test::DrawnLengths& was) {
   const auto length_in = [](const test::DrawnLengths& drawn, const auto& what) {
     const auto at = drawn.lengths.find(what);
     return at == drawn.lengths.end() ? 0.0 : at->second;
@@ -111,8 +112,8 @@ TEST(RefinedBodies, LookAsBefore) {
     const auto turn = draw.rotation();
     for (TriangleMesh* const mesh : {&plain, &cut}) test::place_mesh(*mesh, turn, {10, 20, 30});
     const Vec3l direction{draw.whole(-50, 50), draw.whole(-50, 50), 60};
-    const auto alike = look_alike(test::drawn_lengths(cut, 0, direction),
-                                  test::drawn_lengths(plain, 0, direction));
+    const auto alike = have_equal_lengths(test::drawn_lengths(cut, 0, direction),
+                                          test::drawn_lengths(plain, 0, direction));
     if (alike) continue;
     ++others;
     unlike += "seed " + std::to_string(seed) + ": " + alike.message() + '\n';

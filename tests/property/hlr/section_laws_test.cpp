@@ -73,7 +73,7 @@ TEST(SectionLaws, SameForAnyNumberOfThreads) {
   }
 }
 
-TEST(SectionLaws, PlanesBeyondTheModelChangeNothingAndAreTold) {
+TEST(SectionLaws, PlanesBeyondTheModelChangeNothingAndAreReported) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const test::SceneBuilder scene = test::lattice_scene(seed, lattice(seed));
     const auto whole = pieces(scene.scene(), view_of(seed, {}));

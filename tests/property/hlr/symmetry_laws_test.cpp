@@ -59,14 +59,14 @@ struct Symmetry {
 };
 
 TEST(Symmetry, ThereAreFortyEightAndHalfOfThemMirror) {
-  std::map<std::array<std::int64_t, 3>, int> seen;
+  std::map<std::array<std::int64_t, 3>, int> visible_pieces;
   int mirrors = 0;
   for (std::uint64_t s = 0; s < 48; ++s) {
     const Vec3l p = Symmetry(s)({1, 10, 100});
-    ++seen[{p.x, p.y, p.z}];
+    ++visible_pieces[{p.x, p.y, p.z}];
     mirrors += Symmetry(s).mirrors() ? 1 : 0;
   }
-  EXPECT_EQ(seen.size(), 48U);
+  EXPECT_EQ(visible_pieces.size(), 48U);
   EXPECT_EQ(mirrors, 24);
 }
 
@@ -145,7 +145,7 @@ TEST(HiddenLineSymmetry, AnObjectSplitInTwoShowsTheSame) {
                          .limits = test::random_limits(random, options)};
     const hlr::Options how{.intersections = hlr::Intersections::off};
     // Whose face hides a line is another matter now, and wires are seen in solids of their own.
-    const auto told = [&](const model::Scene& scene) {
+    const auto reported = [&](const model::Scene& scene) {
       std::vector<Line> all = lines(pieces(scene, view, how), same);
       std::erase_if(all, [](const Line& line) {
         return std::get<State>(line) != State::visible ||
@@ -155,7 +155,7 @@ TEST(HiddenLineSymmetry, AnObjectSplitInTwoShowsTheSame) {
       std::ranges::sort(all);
       return all;
     };
-    ASSERT_EQ(difference(told(plain.scene()), told(apart.scene())), "") << "seed " << seed;
+    ASSERT_EQ(difference(reported(plain.scene()), reported(apart.scene())), "") << "seed " << seed;
   }
   EXPECT_GT(split, kSeeds / 10);
 }
@@ -170,7 +170,7 @@ std::map<State, double> lengths(const std::vector<EdgePiece>& list) {
   return sum;
 }
 
-std::vector<EdgePiece> seen(const test::SceneBuilder& scene, const Vec3l& direction) {
+std::vector<EdgePiece> visible_pieces(const test::SceneBuilder& scene, const Vec3l& direction) {
   return pieces(scene.scene(), {.direction = direction, .limits = {}}, {});
 }
 
@@ -187,7 +187,7 @@ TEST(ClosedForm, BoxesApartShowThreeFacesEach) {
       scene.object(
           {box_at({i * 100000LL * kMm, j * 100000LL * kMm, 0}, {100 * kMm, 200 * kMm, 300 * kMm})});
   for (const Vec3l& direction : {Vec3l{1, 1, 1}, Vec3l{1, -2, 3}, Vec3l{-3, -1, 2}}) {
-    const auto sum = lengths(seen(scene, direction));
+    const auto sum = lengths(visible_pieces(scene, direction));
     EXPECT_EQ(sum.at(State::visible), 16 * 3 * 600.0);
     EXPECT_EQ(sum.at(State::hidden_by_self), 16 * 600.0);
     EXPECT_EQ(sum.size(), 2U);
@@ -202,7 +202,7 @@ TEST(ClosedForm, ARowOfBoxesInTheLineOfSightShowsItsOutlineOnly) {
   for (std::int64_t i = 0; i < kBoxes; ++i)
     scene.object({box_at({-1000 * i * kMm, -2000 * i * kMm, -3000 * i * kMm},
                          {100 * kMm, 200 * kMm, 300 * kMm})});
-  const auto sum = lengths(seen(scene, {1, 2, 3}));
+  const auto sum = lengths(visible_pieces(scene, {1, 2, 3}));
   EXPECT_EQ(sum.at(State::visible), 3 * 600.0 + (kBoxes - 1) * 2 * 600.0);
   EXPECT_EQ(sum.at(State::hidden_by_self), kBoxes * 600.0);
   EXPECT_EQ(sum.at(State::hidden_by_other), (kBoxes - 1) * 600.0);
@@ -214,7 +214,7 @@ TEST(ClosedForm, ALargerBoxInFrontHidesAll) {
     scene.object({box_at({0, 0, 0}, {100 * kMm, 100 * kMm, 100 * kMm})});
     scene.object({box_at(direction * (2000 * kMm) - Vec3l{150 * kMm, 150 * kMm, 150 * kMm},
                          {400 * kMm, 400 * kMm, 400 * kMm})});
-    for (const EdgePiece& p : seen(scene, direction))
+    for (const EdgePiece& p : visible_pieces(scene, direction))
       if (model::index(p.object) == 0) {
         EXPECT_TRUE(p.state == State::hidden_by_self || p.state == State::hidden_by_other ||
                     p.state == State::projecting);
@@ -249,7 +249,7 @@ TEST(ClosedForm, ARackSeenFromAboveIsCutWhereItsBeamsCross) {
   for (std::int64_t i = 0; i < kUpper; ++i)
     scene.object(
         {box_at({(400 + i * 600) * kMm, 0, 500 * kMm}, {60 * kMm, 5000 * kMm, 100 * kMm})});
-  const auto sum = lengths(seen(scene, {0, 0, 1}));
+  const auto sum = lengths(visible_pieces(scene, {0, 0, 1}));
   const double hidden = 4 * kWidth * kLower * kUpper;
   EXPECT_EQ(sum.at(State::visible), 4 * (kLength + kWidth) * (kLower + kUpper) - hidden);
   EXPECT_EQ(sum.at(State::hidden_by_other), hidden);

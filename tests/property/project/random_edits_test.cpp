@@ -136,13 +136,13 @@ std::vector<std::uint32_t> distinguishable(const model::Model& model, Random& ra
   return found;
 }
 
-Done told(const Changes& changes) {
+Done reported(const Changes& changes) {
   Done done;
   for (const ObjectChange& change : changes.objects) done[change.name().id] = change.kinds;
   return done;
 }
 
-TEST(RandomEdits, EachIsToldAsWhatItWas) {
+TEST(RandomEdits, EachIsReportedAsWhatItWas) {
   parallel::Team team(4);
   const parallel::Context parallel_context{.team = &team};
   for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
@@ -172,7 +172,7 @@ TEST(RandomEdits, EachIsToldAsWhatItWas) {
     const Result<Changes> together = compare(then, now, *files, parallel_context);
     ASSERT_TRUE(alone);
     ASSERT_TRUE(together);
-    EXPECT_EQ(told(*alone), done);
+    EXPECT_EQ(reported(*alone), done);
     EXPECT_EQ(alone->objects, together->objects);
     EXPECT_EQ(alone->unchanged, together->unchanged);
   }

@@ -91,22 +91,22 @@ class BcfClient(BcfProject):
 
     def check(self, before, after, decisions):
         """Compares the project with what it was and what was decided."""
-        told = self.keys_by_guid()
+        reported = self.keys_by_guid()
         old = {row[0]: row for row in before[0]}
         events = after[1][len(before[1]):]
         self.assertEqual(after[1][:len(before[1])], before[1])
-        said = {key: [] for key in told}
+        stated = {key: [] for key in reported}
         ids = dict(self.query('SELECT id, key FROM clash'))
         for clash, at, who, _, _, comment in events:
             if comment and not comment.startswith('assigned to '):
-                said[ids[clash]].append((at, who, ' '.join(comment.split())))
+                stated[ids[clash]].append((at, who, ' '.join(comment.split())))
         for key, status, comment, assignee, _ in after[0]:
-            decided = decisions.get(told[key], {})
+            decided = decisions.get(reported[key], {})
             wanted = decided.get('status', '').lower() or old[key][1]
             self.assertEqual(status, wanted, key)
             self.assertEqual(assignee, decided.get('assignee', old[key][3]))
             comments = [(at, who, ' '.join(text.split())) for at, who, text in decided.get('comments', [])]
-            self.assertEqual(said[key], comments)
+            self.assertEqual(stated[key], comments)
             last = comments[-1][2] if comments else old[key][2]
             self.assertEqual(' '.join(comment.split()) if comment else comment, ' '.join(last.split()) if last else last)
 

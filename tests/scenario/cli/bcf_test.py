@@ -48,7 +48,7 @@ class BcfOut(RowProject):
         ahead = sum(d * (c - e) for d, c, e in zip(view['direction'], (.09, .05, .05), view['eye']))
         self.assertGreater(ahead, 0)
 
-    def test_both_versions_say_the_same(self):
+    def test_both_versions_state_the_same(self):
         for version in ('2.1', '3.0'):
             self.clash('-o', f'{version}.bcf', '--bcf-version', version, '--clearance', '25mm')
         two, three = self.bcf('2.1.bcf'), self.bcf('3.0.bcf')
@@ -83,13 +83,13 @@ class BcfOut(RowProject):
         view = self.bcf().topics[0]['view']
         self.assertEqual(sorted(map(len, view['colors'].values())), [1, 2])
 
-    def test_what_is_left_out_is_told(self):
+    def test_what_is_left_out_is_reported(self):
         self.write('row.obj', cubes([*ROW, (340, 0, 0)]))
-        told = self.clash('-o', 'x.bcf', '--bcf-most', 2).stderr
-        self.assertIn('x.bcf: without 1 result beyond the first 2, and 1 contact', told)
+        reported = self.clash('-o', 'x.bcf', '--bcf-most', 2).stderr
+        self.assertIn('x.bcf: without 1 result beyond the first 2, and 1 contact', reported)
         self.assertEqual(len(self.bcf().topics), 2)
-        told = self.clash('-o', 'x.bcf', '--bcf-contacts').stderr
-        self.assertNotIn('without', told)
+        reported = self.clash('-o', 'x.bcf', '--bcf-contacts').stderr
+        self.assertNotIn('without', reported)
         self.assertEqual([t['priority'] for t in self.bcf().topics], ['High'] * 3 + ['Low'])
 
     def test_ifc_elements_have_their_guids(self):
@@ -102,8 +102,8 @@ class BcfOut(RowProject):
         """As the importer of IFC has the groups at the top inherit it."""
         origin = {'ProjectId': '0$WU4A9R19$vKWO$AdOnKA', 'FileDate': '2026-01-30T10:00:00+02:00'}
         self.write('m.gltf', gltf(('site', origin, None, [(f'e{i}', {}, .05 * i, []) for i in range(2)])))
-        told = self.done('clash', 'm.gltf', '-o', 'x.bcf').stderr
-        self.assertNotIn('dated', told)
+        reported = self.done('clash', 'm.gltf', '-o', 'x.bcf').stderr
+        self.assertNotIn('dated', reported)
         topic, = self.bcf().topics
         self.assertEqual((topic['created'], topic['projects'], topic['file_dates']),
                          ('2026-01-30T08:00:00Z', ['0$WU4A9R19$vKWO$AdOnKA'], ['2026-01-30T08:00:00Z']))
@@ -111,11 +111,11 @@ class BcfOut(RowProject):
         self.assertNotIn('dated', self.clash('-o', 'x.bcf', '--bcf-date', '2026-01-31').stderr)
 
     def test_misuse(self):
-        for options, told in ((['--bcf-version', '2.1'], 'no .bcf is written'), (['--bcf-most', '5'], 'no .bcf is written'),
+        for options, reported in ((['--bcf-version', '2.1'], 'no .bcf is written'), (['--bcf-most', '5'], 'no .bcf is written'),
                               (['-o', 'x.bcf', '--bcf-date', 'today'], 'is no date'),
                               (['-o', 'x.bcf', '--bcf-version', '2.0'], '2.1'),
                               (['-o', 'x.bcf', '--bcf-author', ' '], 'no name')):
-            self.assertIn(told, self.clash(*options, exit_code=2).stderr)
+            self.assertIn(reported, self.clash(*options, exit_code=2).stderr)
 
 
 class BcfHostileNames(Scenario):
@@ -158,27 +158,27 @@ class BcfBack(BcfProject):
             with self.subTest(version):
                 self.out('--bcf-version', version)
                 self.edit(self.decide)
-                told = self.take().stderr
+                reported = self.take().stderr
                 rows = {row[0]: row[1:] for row in self.state()[0]}
                 by_name = {tuple(row[:2]): rows[row[2]] for row in self.query('SELECT a_name, b_name, key FROM clash')}
                 self.assertEqual(by_name['c0', 'c1'][:3], ('approved', 'as agreed\nby phone', None))
                 self.assertIn(by_name['c1', 'c2'][0], ('new', 'active'))
                 self.assertEqual(by_name['c1', 'c2'][1:3], (None, 'Bob'))
                 self.assertEqual(by_name['c2', 'c3'][1:3], ('<b>move it</b>', None))
-                said = [event[1:] for event in self.state()[1] if event[5] and event[2] in ('Ann', 'Ödön')]
-                self.assertEqual({(e[0], e[1], e[4]) for e in said},
+                stated = [event[1:] for event in self.state()[1] if event[5] and event[2] in ('Ann', 'Ödön')]
+                self.assertEqual({(e[0], e[1], e[4]) for e in stated},
                                  {('2026-02-03T10:00:00Z', 'Ann', 'as agreed\nby phone'),
                                   ('2026-02-03T10:00:00Z', 'Ödön', '<b>move it</b>'),
                                   ('2026-02-03T10:00:01Z', 'Ann', '<b>move it</b>')})
                 if version == '2.1':
-                    self.assertIn('3 topics, 1 status and 1 assignee changed, 3 comments added, 0 comments were there', told)
+                    self.assertIn('3 topics, 1 status and 1 assignee changed, 3 comments added, 0 comments were there', reported)
 
     def test_the_same_file_again_changes_nothing(self):
         self.edit(self.decide)
         self.take()
         before = self.state()
-        told = self.take().stderr
-        self.assertIn('0 statuses and 0 assignees changed, 0 comments added, 3 comments were there', told)
+        reported = self.take().stderr
+        self.assertIn('0 statuses and 0 assignees changed, 0 comments added, 3 comments were there', reported)
         self.assertEqual(self.state(), before)
         # Nor does a file that is written now and comes back untouched.
         for version in ('2.1', '3.0'):
@@ -197,7 +197,7 @@ class BcfBack(BcfProject):
         guids = [guid for topic in topics for guid in topic['comment_guids']]
         self.assertEqual(len(guids), len(set(guids)), 'no GUID stands for two comments')
         topic = next(t for t in topics if of in t['title'])
-        return [(guid, *said, *edited) for guid, said, edited in zip(topic['comment_guids'], topic['comments'], topic['edited'])]
+        return [(guid, *stated, *edited) for guid, stated, edited in zip(topic['comment_guids'], topic['comments'], topic['edited'])]
 
     def test_comments_of_others_keep_their_guids(self):
         ours = self.listed()[0]['key']
@@ -206,8 +206,8 @@ class BcfBack(BcfProject):
         self.take()
         ann = ('11111111-1111-4111-8111-111111111111', '2026-02-03T10:00:00Z', 'Ann', 'as agreed\nby phone', None, None)
         for version in ('2.1', '3.0'):
-            said = self.comments('--bcf-version', version)
-            self.assertIn(ann, said)
+            stated = self.comments('--bcf-version', version)
+            self.assertIn(ann, stated)
             self.assertEqual([s[0] for s in self.comments('--bcf-version', version, of='c3')],
                              ['22222222-2222-4222-8222-222222222222', '33333333-3333-4333-8333-333333333333'])
         # In a group it is another comment, for the single clash has the GUID.
@@ -240,8 +240,8 @@ class BcfBack(BcfProject):
         self.assertEqual([s[3] for s in self.comments()], ['her deck'])
         topic = next(t for t in Bcf(self.folder / 'now.bcf', self.fail).topics if 'c0' in t['title'])
         self.assertEqual(topic['assignee'], 'Ann')
-        told = [s[3] for s in self.comments('--bcf-history', name='told.bcf')]
-        self.assertEqual(sorted(told), ['assigned to Bob', 'her deck; assigned to Ann'])
+        reported = [s[3] for s in self.comments('--bcf-history', name='told.bcf')]
+        self.assertEqual(sorted(reported), ['assigned to Bob', 'her deck; assigned to Ann'])
         before = self.state()
         for name in ('now.bcf', 'told.bcf'):
             self.assertIn('0 comments added', self.take(name=name).stderr)
@@ -264,18 +264,18 @@ class BcfBack(BcfProject):
         key = self.listed()[0]['key']
         self.set(key, '--status', 'approved', '--assignee', 'Eve', '--by', 'Eve')
         before = self.state()
-        told = self.take(name='x.bcf').stderr
-        self.assertNotIn('conflict', told)
+        reported = self.take(name='x.bcf').stderr
+        self.assertNotIn('conflict', reported)
         self.assertEqual(self.state(), before)
 
-    def test_conflicts_are_told_and_go_by_the_rule(self):
+    def test_conflicts_are_reported_and_go_by_the_rule(self):
         keys = {(a, b): key for a, b, key in self.query('SELECT a_name, b_name, key FROM clash')}
         self.edit(self.decide)
         self.set(keys['c0', 'c1'], '--status', 'reviewed', '--by', 'Eve')
         self.set(keys['c1', 'c2'], '--assignee', 'Eve')
-        told = self.take().stderr
-        self.assertIn('2 conflicts', told)
-        self.assertIn('the status is another one in the project, too; that of the project stays', told)
+        reported = self.take().stderr
+        self.assertIn('2 conflicts', reported)
+        self.assertIn('the status is another one in the project, too; that of the project stays', reported)
         rows = dict((row[0], row[1:]) for row in self.state()[0])
         self.assertEqual(rows[keys['c0', 'c1']][:2], ('reviewed', 'as agreed\nby phone'))
         self.assertEqual(rows[keys['c1', 'c2']][2], 'Eve')
@@ -295,10 +295,10 @@ class BcfBack(BcfProject):
             else:
                 topic.set('TopicStatus', 'closed')
         self.edit(change)
-        told = self.take().stderr
-        self.assertRegex(told, r"1 topic is about no clash of the project\n.*HIT, .*c0 / c1")
-        self.assertIn("the status 'Whatever' of 1 topic means none of a clash: its own stays", told)
-        self.assertIn('1 status and', told)
+        reported = self.take().stderr
+        self.assertRegex(reported, r"1 topic is about no clash of the project\n.*HIT, .*c0 / c1")
+        self.assertIn("the status 'Whatever' of 1 topic means none of a clash: its own stays", reported)
+        self.assertIn('1 status and', reported)
         self.assertEqual(sorted(row[1] for row in self.state()[0]), ['new', 'new', 'resolved'])
 
     def test_topics_without_their_description_are_known_by_their_guid(self):
@@ -334,9 +334,9 @@ class BcfBack(BcfProject):
             for name in group.namelist():
                 if name.endswith('markup.bcf'):
                     both.writestr(name, group.read(name))
-        told = self.take(name='single.bcf').stderr
-        self.assertIn('5 topics, 3 statuses', told)
-        self.assertIn('3 conflicts', told)
+        reported = self.take(name='single.bcf').stderr
+        self.assertIn('5 topics, 3 statuses', reported)
+        self.assertIn('3 conflicts', reported)
         for clash, in self.query('SELECT id FROM clash'):
             self.assertEqual(len(self.query(f"SELECT id FROM event WHERE clash = {clash} AND after IN ('approved', 'reviewed')")), 1)
 
@@ -374,20 +374,20 @@ class BcfBack(BcfProject):
         self.assertEqual(sorted(t['modified'] for t in Bcf(self.folder / 'now.bcf', self.fail).topics),
                          [('2026-02-02T23:30:00Z', 'Ann')] * 2 + [(at, 'Eve')])
 
-    def test_a_date_that_is_none_is_told_and_not_handed_on(self):
+    def test_a_date_that_is_none_is_reported_and_not_handed_on(self):
         def change(topic, markup):
             if 'c0' in topic.findtext('Title'):
                 approve(topic, '2026-02-30T10:00:00Z', 'Ann')
             add_comment(markup, '1' * 8 + '-1111-4111-8111-111111111111', '2026-13-01T00:00:00', 'Ann', 'when?')
         self.edit(change)
-        told = self.take().stderr
-        self.assertRegex(told, "bcf-date-invalid, first of 4: .*the (Modified)?Date '2026-")
+        reported = self.take().stderr
+        self.assertRegex(reported, "bcf-date-invalid, first of 4: .*the (Modified)?Date '2026-")
         with contextlib.closing(sqlite3.connect(self.folder / 'ship.strake')) as project, project:
             project.execute("UPDATE clash SET decided_at = '2026-02-30T10:00:00Z' WHERE decision = 'approved'")
             project.execute("UPDATE event SET at = 'then' WHERE comment = 'when?'")
         for version in ('2.1', '3.0'):
-            told = self.out('--bcf-version', version, name='now.bcf').stderr
-            self.assertIn('4 dates of decisions and comments are none; others stand in their place', told)
+            reported = self.out('--bcf-version', version, name='now.bcf').stderr
+            self.assertIn('4 dates of decisions and comments are none; others stand in their place', reported)
             topics = Bcf(self.folder / 'now.bcf', self.fail).topics
             self.assertEqual({t['modified'] for t in topics}, {(None, None)})
             self.assertEqual([len(t['comments']) for t in topics], [1, 1, 1])
@@ -405,16 +405,16 @@ class BcfBack(BcfProject):
                 if comment.get('Guid') == guid:
                     comment.find('Comment').text = 'all'
                     ElementTree.SubElement(comment, 'ModifiedDate').text = '2026-02-04T10:00:00+01:00'
-        said = []
+        stated = []
         for step, source in ((change, 'g.bcf'), (reword, 'g.bcf')):
             self.out('--group-by', 'element', name='g.bcf')
             self.edit(step, source)
             self.assertIn('2 comments added', self.take().stderr)
             self.out('--group-by', 'element', name='g.bcf')
             topics = Bcf(self.folder / 'g.bcf', self.fail).topics
-            said.append([(*c, *e) for t in topics for c, e in zip(zip(t['comment_guids'], t['comments']), t['edited'])])
+            stated.append([(*c, *e) for t in topics for c, e in zip(zip(t['comment_guids'], t['comments']), t['edited'])])
         first = ('2026-02-03T12:00:00Z', 'Ann')
-        self.assertEqual(said, [[(guid, (*first, 'both'), None, None)],
+        self.assertEqual(stated, [[(guid, (*first, 'both'), None, None)],
                                 [(guid, (*first, 'all'), '2026-02-04T09:00:00Z', 'Ann')]])
         # Alone each clash has it under another GUID, of which no two are the same, and it is known when it comes back.
         self.out(name='now.bcf')
@@ -431,10 +431,10 @@ class BcfBack(BcfProject):
 
     # What comes back may be anything.
 
-    def refused(self, content, told):
+    def refused(self, content, reported):
         (self.folder / 'bad.bcf').write_bytes(content)
         before = self.state()
-        self.assertRegex(self.take(name='bad.bcf', exit_code=3).stderr, told)
+        self.assertRegex(self.take(name='bad.bcf', exit_code=3).stderr, reported)
         self.assertEqual(self.state(), before)
 
     @staticmethod
@@ -454,8 +454,8 @@ class BcfBack(BcfProject):
         self.refused(self.archive([('bcf.version', '<!DOCTYPE x [<!ENTITY e "2.1">]><Version VersionId="&e;"/>')]), 'is not read')
         bomb = self.archive([version, *((f'{i:08}-0000-4000-8000-000000000000/markup.bcf', b' ' * (17 << 20)) for i in range(3))])
         (self.folder / 'bomb.bcf').write_bytes(bomb)
-        told = self.take(name='bomb.bcf').stderr
-        self.assertEqual(told.count('unpacks to more than it may'), 3)
+        reported = self.take(name='bomb.bcf').stderr
+        self.assertEqual(reported.count('unpacks to more than it may'), 3)
         many = self.archive([version, *((f'{i:08}-0000-4000-8000-000000000000/markup.bcf', b' ' * (15 << 20)) for i in range(40))])
         self.refused(many, '512 MiB')
         refused = self.archive([version, *((f'{i:08}-0000-4000-8000-000000000000/markup.bcf', b' ' * (17 << 20)) for i in range(40))])

@@ -35,9 +35,9 @@ class ClashDiff(Scenario):
                                   for other in (removed, moved)))
         self.rewrite_obj('ship.obj', removed, moved, renamed)
         self.assertEqual(self.run_strake(*run, 'new.json').returncode, 0)
-        told = self.diff('-o', 'changes.json', '--fail-on', 'cannot-tell', exit_code=1)
-        self.assertEqual(told, json.loads((self.folder / 'changes.json').read_text()))
-        self.assertEqual(told['counts']['changed'], 0)
+        reported = self.diff('-o', 'changes.json', '--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual(reported, json.loads((self.folder / 'changes.json').read_text()))
+        self.assertEqual(reported['counts']['changed'], 0)
 
         def of(entries):
             return {frozenset((e['a']['id'], e['b']['id'])) for e in entries}
@@ -45,15 +45,15 @@ class ClashDiff(Scenario):
         def having(id):
             return {frozenset((r['a']['id'], r['b']['id'])) for r in results if id in (r['a']['id'], r['b']['id'])}
         missing = having(removed) | having(renamed)
-        self.assertEqual(of(told['cannot_tell']), missing)
-        self.assertEqual(of(told['gone']), having(moved) - missing)
-        self.assertTrue(all('is not in the model' in e['why'] for e in told['cannot_tell']))
-        self.assertEqual(of(told['added']),
+        self.assertEqual(of(reported['cannot_tell']), missing)
+        self.assertEqual(of(reported['gone']), having(moved) - missing)
+        self.assertTrue(all('is not in the model' in e['why'] for e in reported['cannot_tell']))
+        self.assertEqual(of(reported['added']),
                          {frozenset(i.replace(renamed, 'renamed') for i in pair)
                           for pair in having(renamed) - having(removed) - having(moved)})
-        self.assertTrue(all("'renamed' of ship.obj is not in the model" == e['why'] for e in told['added']))
+        self.assertTrue(all("'renamed' of ship.obj is not in the model" == e['why'] for e in reported['added']))
         done = self.run_strake('clash', 'diff', 'old.json', 'new.json')
-        self.assertIn(f"{len(told['gone'])} gone, {len(missing)} cannot tell", done.stdout)
+        self.assertIn(f"{len(reported['gone'])} gone, {len(missing)} cannot tell", done.stdout)
 
     def rewrite_obj(self, name, removed, moved, renamed):
         """Vertices are numbered through the file, so a removed object keeps them."""
@@ -83,7 +83,7 @@ class ClashDiff(Scenario):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text('\n'.join(lines) + '\n')
 
-    def test_files_of_one_name_are_told_apart_by_their_folders(self):
+    def test_files_of_one_name_are_distinguished_by_their_folders(self):
         """Neither the size of a file nor the order on the command line says which is which."""
         self.write_box('hull/model.obj', [('P', (0, 0, 0), (100, 100, 100))])
         self.write_box('outfit/model.obj', [('Q', (50, 0, 0), (150, 100, 100))])
@@ -118,9 +118,9 @@ class ClashDiff(Scenario):
                 new = json.loads((self.folder / 'new.json').read_text())
                 self.assertEqual(new['not_compared'], [listed])
                 self.assertIn({'code': listed['code'], 'severity': 'skipped', 'count': 1}, new['diagnostics'])
-                told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
-                self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 1})
-                self.assertIn(listed['code'], told['cannot_tell'][0]['why'])
+                reported = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+                self.assertEqual(reported['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 1})
+                self.assertIn(listed['code'], reported['cannot_tell'][0]['why'])
         self.write_box('m.obj', [('A', (0, 0, 0), (100, 100, 100)), beam])
         with open(self.folder / 'm.obj', 'a') as file:
             file.write('o C\nf 1 2 999\n')
@@ -143,10 +143,10 @@ class ClashDiff(Scenario):
 
         run(whole, 'old.json')
         run(lacking, 'new.json')
-        told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
-        self.assertEqual([e['why'] for e in told['cannot_tell']],
+        reported = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual([e['why'] for e in reported['cannot_tell']],
                          ["'A' of m.obj has surfaces that enclose nothing beyond those of the other run"])
-        self.assertEqual(told['gone'], [])
+        self.assertEqual(reported['gone'], [])
         # The other way round it is new, but perhaps not by what was moved.
         run(lacking, 'old.json')
         run(whole, 'new.json')
@@ -193,9 +193,9 @@ class ClashDiff(Scenario):
             self.assertEqual(self.diff('--fail-on', 'cannot-tell')['counts'], same, places)
         new = run([-5, -4.91, 1, 1.2], 'new.json')
         self.assertEqual(new['results'][0]['key'], old['results'][0]['key'], 'two clashes of one key')
-        told = self.diff('--fail-on', 'cannot-tell', exit_code=1)
-        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
-        self.assertEqual([e['run'] for e in told['cannot_tell']], ['old', 'new'])
+        reported = self.diff('--fail-on', 'cannot-tell', exit_code=1)
+        self.assertEqual(reported['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
+        self.assertEqual([e['run'] for e in reported['cannot_tell']], ['old', 'new'])
         for level in ('new-hit', 'new', 'worse'):
             done = self.run_strake('clash', 'diff', 'old.json', 'new.json', '--fail-on', level)
             self.assertEqual(done.returncode, 1, level)

@@ -41,7 +41,7 @@ class ClashOutput(Scenario):
         counts = json.loads(self.text('clash', 'diff', 'plain.json', 'x.json', '--json'))['counts']
         self.assertEqual((counts['same'], sum(counts.values())), (len(rows), len(rows)))
 
-    def test_a_column_that_nothing_states_is_told_with_names_like_it(self):
+    def test_a_column_that_nothing_states_is_reported_with_names_like_it(self):
         run = [*self.ship(), '--columns', '@sytem,@Insulation', '--json']
         done = self.run_strake(*run)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -96,7 +96,7 @@ class ClashOutput(Scenario):
         self.assertEqual({g['class'] for g in hits['groups']['list']}, {'HIT'})
         self.assertEqual(sum(g['results'] for g in hits['groups']['list']), len(hits['results']))
 
-    def test_where_most_hits_lie_is_told(self):
+    def test_where_most_hits_lie_is_reported(self):
         for name, x in (('a', 0), ('b', 50)):
             self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (x, 0, 1000 * n), 100) for n in range(25)))
         self.write('c.obj', cube('c0', 0, (-50, 0, 0), 100))
@@ -112,7 +112,7 @@ class ClashOutput(Scenario):
         for quiet in (['--quiet'], ['--json'], ['--class', 'contact']):
             self.assertNotIn('makes them one line', self.run_strake(*files, *quiet).stderr)
 
-    def test_hits_between_parts_of_one_assembly_are_told(self):
+    def test_hits_between_parts_of_one_assembly_are_reported(self):
         files = []
         for name, y in (('a', 0), ('b', 5000), ('c', 10000), ('d', 15000), ('e', 20000)):
             files.append(self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (50 * n, y, 0), 100) for n in range(6))))
@@ -125,9 +125,9 @@ class ClashOutput(Scenario):
             lines = self.text(*run, '--top', rows).split('\n')
             self.assertEqual(sum(line.startswith('CONTACT') for line in lines), rows)
 
-    def test_what_is_wrong_with_the_options_is_said(self):
+    def test_what_is_wrong_with_the_options_is_stated(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
-        for options, said in ((['--columns', 'Tag', '-o', 'x.csv'], "--columns: 'Tag' is no column"),
+        for options, stated in ((['--columns', 'Tag', '-o', 'x.csv'], "--columns: 'Tag' is no column"),
                               (['--columns', '@Tag,', '-o', 'x.csv'], "--columns: '' is no column"),
                               (['--columns', '@A,@B,@A', '-o', 'x.csv'], "'@A' stands there twice"),
                               (['--columns', '@Tag'], 'files of results only'),
@@ -141,7 +141,7 @@ class ClashOutput(Scenario):
             with self.subTest(options):
                 done = self.run_strake('clash', 'a.obj', *options)
                 self.assertEqual((done.returncode, done.stdout), (2, ''))
-                self.assertIn(said, done.stderr)
+                self.assertIn(stated, done.stderr)
         self.assertEqual(self.files(), ['a.obj'])
 
 

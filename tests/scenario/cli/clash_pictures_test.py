@@ -142,7 +142,7 @@ class ClashPictures(Scenario):
         self.assertEqual({key: (m['class'], float(m['d_mm'])) for key, m in markers.items()},
                          {r['key']: (r['class'], round(r['d_mm'], 3)) for r in results})
 
-    def test_wrong_options_are_told_before_the_run(self):
+    def test_wrong_options_are_reported_before_the_run(self):
         self.write('two.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (60, 30, 40), 100))
         for arguments, words in ((['--top-pictures', '3'], '--pictures'),
                                  (['--pictures', 'p', '--top-pictures', '-1'], '--top-pictures'),

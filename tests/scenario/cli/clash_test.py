@@ -91,7 +91,7 @@ class Clash(Scenario):
         self.assertEqual(report['results'], [])
         self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
 
-    def test_an_empty_set_is_told_as_draw_tells_it(self):
+    def test_an_empty_set_is_reported_as_draw_reports_it(self):
         self.two_files()
         for selection, mend in (('nobody', 'a bare pattern is compared with names'),
                                 ('@Tag = 7', "'strake info --attributes' lists the attributes"),
@@ -99,27 +99,27 @@ class Clash(Scenario):
             clash = self.run_strake('clash', 'a.obj', '--a', selection)
             draw = self.run_strake('draw', 'a.obj', '--select', selection, '-o', 'x.svg')
             self.assertEqual((clash.returncode, draw.returncode), (0, 2))
-            said = draw.stderr.splitlines()[-1].split('--select: ')[1]
-            self.assertIn(f"'{selection}' picks no object", said)
-            self.assertIn(mend, said)
-            self.assertIn(f'warning selection-picks-nothing: --a: {said}\n', clash.stderr)
+            stated = draw.stderr.splitlines()[-1].split('--select: ')[1]
+            self.assertIn(f"'{selection}' picks no object", stated)
+            self.assertIn(mend, stated)
+            self.assertIn(f'warning selection-picks-nothing: --a: {stated}\n', clash.stderr)
 
-    def test_a_file_given_twice_is_told(self):
+    def test_a_file_given_twice_is_reported(self):
         self.two_files()
         (self.folder / 'link.obj').symlink_to('a.obj')
         for verb in (['clash', '--json'], ['draw', '--json'], ['info', '--json']):
-            for second, said in (('a.obj', 'is given more than once: '), ('./a.obj', "is the file 'a.obj' as well: "),
+            for second, stated in (('a.obj', 'is given more than once: '), ('./a.obj', "is the file 'a.obj' as well: "),
                                  ('link.obj', "is the file 'a.obj' as well: ")):
                 done = self.run_strake(*verb, 'a.obj', 'b.obj', second)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn(f'warning file-given-twice: {second}: {said}', done.stderr)
+                self.assertIn(f'warning file-given-twice: {second}: {stated}', done.stderr)
             self.assertNotIn('file-given-twice', self.run_strake(*verb, 'a.obj', 'b.obj').stderr)
         messages = json.loads(self.run_strake('clash', 'a.obj', 'a.obj', '--json').stdout)['messages']
         self.assertIn('file-given-twice', [m['code'] for m in messages])
 
     def test_an_empty_set_is_no_success(self):
         self.two_files()
-        for sets, said in ((['--a', 'nobody*'], 'set A is empty (nobody*)'),
+        for sets, stated in ((['--a', 'nobody*'], 'set A is empty (nobody*)'),
                            (['--a', 'a0', '--b', 'b0'], 'set B is empty (b0)')):
             run = ['clash', 'a.obj', *sets, '--quiet']
             for extra, code, option in ((['--fail-on', 'hit'], 1, '--fail-on hit'),
@@ -130,12 +130,12 @@ class Clash(Scenario):
                 with self.subTest(sets=sets, extra=extra):
                     done = self.run_strake(*run, *extra)
                     self.assertEqual(done.returncode, code, done.stderr)
-                    self.assertEqual(done.stderr, f'strake: {option}: nothing was compared: {said}\n')
+                    self.assertEqual(done.stderr, f'strake: {option}: nothing was compared: {stated}\n')
             done = self.run_strake(*run)
             self.assertEqual((done.returncode, done.stderr), (0, ''))
-            self.assertIn(f'violations; nothing was compared: {said.split(" (")[0]}\n', done.stdout)
+            self.assertIn(f'violations; nothing was compared: {stated.split(" (")[0]}\n', done.stdout)
 
-    def test_lines_are_judged_where_asked_for(self):
+    def test_lines_are_classified_where_requested(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + 'o wire\nv -50 50 40\nv 150 50 40\nl 9 10\n')
         plain = json.loads(self.run_strake('clash', 'a.obj', '--json').stdout)
         self.assertEqual((plain['results'], plain['tests'][0]['settings']['curves']), ([], False))
@@ -198,13 +198,13 @@ class Clash(Scenario):
                             '-o', file)
         row('near.json', 210, 'list')
         row('touching.json', 200, 'count')
-        told = json.loads(self.run_strake('clash', 'diff', 'near.json', 'touching.json', '--json').stdout)
-        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
-        for entry in told['cannot_tell']:
+        reported = json.loads(self.run_strake('clash', 'diff', 'near.json', 'touching.json', '--json').stdout)
+        self.assertEqual(reported['counts'], {'new': 0, 'changed': 0, 'same': 0, 'gone': 0, 'cannot_tell': 2})
+        for entry in reported['cannot_tell']:
             self.assertIn('2 contacts, which are not listed', entry['why'])
-        told = json.loads(self.run_strake('clash', 'diff', 'touching.json', 'near.json', '--json').stdout)
-        self.assertEqual(told['counts']['new'], 2)
-        for entry in told['added']:
+        reported = json.loads(self.run_strake('clash', 'diff', 'touching.json', 'near.json', '--json').stdout)
+        self.assertEqual(reported['counts']['new'], 2)
+        for entry in reported['added']:
             self.assertIn('2 contacts, which are not listed', entry['why'])
 
     def test_contacts_that_rules_allow_are_counted_as_such(self):
@@ -247,12 +247,12 @@ class Clash(Scenario):
         exactly = [*run[:6], '--clearance', '3mm', '--fail-on', 'contact']
         self.assertEqual(self.run_strake(*exactly).returncode, 0)
 
-    def test_a_depth_that_a_work_limit_ended_is_told_as_such(self):
+    def test_a_depth_that_a_work_limit_ended_is_reported_as_such(self):
         # Of cubes 10 mm deep in each other the baseline finds out no more than that they clash.
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (90, 0, 0), 100))
         exact = ['clash', 'a.obj', *self.SETTINGS]
         spheres = [*exact, '--narrow-phase', 'sphere-subdivision']
-        told = {}
+        reported = {}
         for name, run in (('exact', exact), ('spheres', spheres)):
             done = self.run_strake(*run, '-o', f'{name}.json', '-o', f'{name}.csv')
             (result,) = json.loads((self.folder / f'{name}.json').read_text(encoding='utf-8'))['results']
@@ -260,9 +260,9 @@ class Clash(Scenario):
             self.assertEqual(result['class'], 'HIT')
             low, high = result['d_range_mm']
             bracket = f'[{math.floor(low * 1000) / 1000:.3f}, {math.ceil(high * 1000) / 1000:.3f}]'
-            told[name] = (result.get('depth_complete'), row['depth_complete'], bracket in done.stdout,
+            reported[name] = (result.get('depth_complete'), row['depth_complete'], bracket in done.stdout,
                           'd range mm' in done.stdout)
-        self.assertEqual(told, {'exact': (None, '', False, False), 'spheres': (False, 'false', True, True)})
+        self.assertEqual(reported, {'exact': (None, '', False, False), 'spheres': (False, 'false', True, True)})
         diff = self.run_strake('clash', 'diff', 'exact.json', 'spheres.json')
         self.assertIn(', depth incomplete (was HIT -10.000)', diff.stdout)
 
@@ -288,10 +288,10 @@ class Clash(Scenario):
         self.assertIn("skipped mesh-face-left-out: a.obj:26: object 'a1' is kept without 3 faces: one uses vertex 15, "
                       'which has no readable place', done.stderr)
         self.assertIn('1 hit, 0 contacts, 0 clearance violations; not compared: all or part of 1 object\n', done.stdout)
-        told = json.loads((self.folder / 'a.json').read_text())
-        self.assertEqual(told['not_compared'], [{'test': 0, 'code': 'object-incomplete',
+        reported = json.loads((self.folder / 'a.json').read_text())
+        self.assertEqual(reported['not_compared'], [{'test': 0, 'code': 'object-incomplete',
                                                  'a': {'id': 'a1', 'name': 'a1', 'file': 'a.obj'}}])
-        self.assertIn({'code': 'mesh-face-left-out', 'severity': 'skipped', 'count': 1}, told['diagnostics'])
+        self.assertIn({'code': 'mesh-face-left-out', 'severity': 'skipped', 'count': 1}, reported['diagnostics'])
         self.assertEqual(self.run_strake('clash', 'a.obj', *self.SETTINGS, '--strict').returncode, 4)
         drawn = self.run_strake('draw', 'a.obj', '--view', 'top', '-o', 'a.svg')
         self.assertIn('2 objects: 2 drawn; 1 without some of their geometry', drawn.stderr)
@@ -303,8 +303,8 @@ class Clash(Scenario):
         done = self.run_strake(*run, '-o', 'cut.json')
         self.assertEqual((done.returncode, done.stderr), (0, f'strake: nothing is known of {rest}\n'))
         self.assertEqual(done.stdout, f'0 hits, 0 contacts, 0 clearance violations; not compared: {rest}\n')
-        told = json.loads((self.folder / 'cut.json').read_text())
-        self.assertEqual(told['files'], [{'label': 'cut.rvm', 'format': 'RVM 2', 'unit': 'm (stated)',
+        reported = json.loads((self.folder / 'cut.json').read_text())
+        self.assertEqual(reported['files'], [{'label': 'cut.rvm', 'format': 'RVM 2', 'unit': 'm (stated)',
                                           'ends_early': True}])
         for worst in 'hit', 'contact', 'clearance_violation':
             done = self.run_strake(*run, '--fail-on', worst)
@@ -320,7 +320,7 @@ class Clash(Scenario):
         self.assertEqual(lost.returncode, 0, lost.stderr)
         self.assertEqual(json.loads(lost.stdout)['counts']['cannot_tell'], 1)
 
-    def test_objects_that_could_not_be_read_whole_are_told_and_strict_counts_them(self):
+    def test_objects_that_could_not_be_read_whole_are_reported_and_strict_counts_them(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (50, 50, 50), 100).replace('150', 'nan'))
         run = ['clash', 'a.obj', *self.SETTINGS]
         done = self.run_strake(*run)
@@ -335,7 +335,7 @@ class Clash(Scenario):
         done = self.run_strake('clash', 'a.obj', 'b.obj', *self.SETTINGS, '--a', 'a0', '--b', 'b0')
         self.assertTrue(done.stdout.endswith('1 hit, 0 contacts, 0 clearance violations\n'), done.stdout)
 
-    def test_groups_say_which_options_belong_together(self):
+    def test_groups_state_which_options_belong_together(self):
         self.two_files()
         done = self.run_strake('clash', 'a.obj', *self.SETTINGS, '--group-by', 'element')
         self.assertIn('element', done.stdout)

@@ -89,7 +89,7 @@ class Bash(Completion, Scenario):
     # Readline's words: = is one.
     BREAKS = r'=|(?:\\.|[^\s=])+|(?<= )$'
 
-    def asked(self, *words, before=''):
+    def completions(self, *words, before=''):
         script = before + self.text('completion', 'bash') + \
             'COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _strake; ((${#COMPREPLY[@]} == 0)) || printf "%s\\n" "${COMPREPLY[@]}"'
         done = subprocess.run(['bash', '-c', script, 'bash', *words], cwd=self.folder,
@@ -98,17 +98,17 @@ class Bash(Completion, Scenario):
         return set(done.stdout.splitlines())
 
     def offers(self, line):
-        return self.asked(*re.findall(self.BREAKS, line))
+        return self.completions(*re.findall(self.BREAKS, line))
 
     def test_old_bash(self):
         """What bash 3 of macOS lacks is not called."""
         self.assertNotRegex(self.text('completion', 'bash'), r'\bmapfile\b|\breadarray\b|\bdeclare -A\b|\blocal -n\b')
-        self.assertEqual(self.asked('strake', 'clash', 's', before='enable -n compopt mapfile\n'), {'set', 'ship.glb'})
+        self.assertEqual(self.completions('strake', 'clash', 's', before='enable -n compopt mapfile\n'), {'set', 'ship.glb'})
 
     def test_equals_within_a_word(self):
         """As with COMP_WORDBREAKS that lacks it."""
-        self.assertEqual(self.asked('strake', 'clash', '--fail-on=h'), {'--fail-on=hit'})
-        self.assertEqual(self.asked('strake', 'clash', '--output=s'), {'--output=ship.glb'})
+        self.assertEqual(self.completions('strake', 'clash', '--fail-on=h'), {'--fail-on=hit'})
+        self.assertEqual(self.completions('strake', 'clash', '--output=s'), {'--output=ship.glb'})
 
 
 class Fish(Completion, Scenario):
@@ -164,12 +164,12 @@ bindkey '^T' ask
     def type(self, keys):
         """Returns when the shell has answered; reads what it writes meanwhile, or it would stop."""
         os.write(self.terminal, keys.encode())
-        said = b''
+        output = b''
         end = time.monotonic() + 60
         while not (self.notes / 'done').exists():
-            self.assertLess(time.monotonic(), end, said.decode(errors='replace'))
+            self.assertLess(time.monotonic(), end, output.decode(errors='replace'))
             if select.select([self.terminal], [], [], .02)[0]:
-                said += os.read(self.terminal, 65536)
+                output += os.read(self.terminal, 65536)
         (self.notes / 'done').unlink()
 
     def offers(self, line):

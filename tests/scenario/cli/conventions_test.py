@@ -37,11 +37,11 @@ class Conventions(Scenario):
         _, plain = self.drawn('wall.obj', *self.RUN, outputs=outputs)
         expected = None
         for threads in (1, 3, 8):
-            told, thinned = self.drawn('wall.obj', *self.RUN, '--thin', '1mm', '--threads', threads, outputs=outputs)
+            reported, thinned = self.drawn('wall.obj', *self.RUN, '--thin', '1mm', '--threads', threads, outputs=outputs)
             expected = expected or thinned
             self.assertEqual(thinned, expected, threads)
         # Folds 0.2 mm apart on paper: of 401 upright lines every fifth stays.
-        self.assertIn('320 lines of 1 object too near to each other on paper are left out or shortened (1 mm)', told)
+        self.assertIn('320 lines of 1 object too near to each other on paper are left out or shortened (1 mm)', reported)
         self.assertIn(b'lines-thinned="320"', thinned[0])
         upright = [len(re.findall(rb'M[\d.]+ [\d.]+V', text[0]) or re.findall(rb'M', text[0])) for text in (plain, thinned)]
         self.assertLess(upright[1], upright[0] / 3)
@@ -49,8 +49,8 @@ class Conventions(Scenario):
         # Model space at true size, and the neutral drawing, have every line.
         self.assertEqual(thinned[2], plain[2])
         self.assertEqual(thinned[3], plain[3])
-        _, (asked,) = self.drawn('wall.obj', *self.RUN, '--thin', '1mm+dxf', outputs=('x.dxf',))
-        self.assertLess(len(asked), len(plain[2]) / 2)
+        _, (requested,) = self.drawn('wall.obj', *self.RUN, '--thin', '1mm+dxf', outputs=('x.dxf',))
+        self.assertLess(len(requested), len(plain[2]) / 2)
         # A neutral drawing is thinned when it is written again.
         self.drawn('wall.obj', *self.RUN, outputs=('w.json',))
         _, (again,) = self.drawn('w.json', '--thin', '1mm')
@@ -85,10 +85,10 @@ class Conventions(Scenario):
         run = ['round.rvm', '--view', 'front', '--scale', '1:10', '--single-line', '105mm']
         expected = None
         for threads in (1, 4):
-            told, made = self.drawn(*run, '--threads', threads, outputs=('x.svg', 'x.pdf', 'x.dxf', 'x.json', 'x.view'))
+            reported, made = self.drawn(*run, '--threads', threads, outputs=('x.svg', 'x.pdf', 'x.dxf', 'x.json', 'x.view'))
             expected = expected or made
             self.assertEqual(made, expected)
-        self.assertIn('2 pieces of pipes drawn as single lines (up to 105 mm)', told)
+        self.assertIn('2 pieces of pipes drawn as single lines (up to 105 mm)', reported)
         self.assertIn(b'class="visible single_line"', made[0])
         pieces = [p for p in json.loads(made[3])['pieces'] if p['kind'] == 'single_line']
         self.assertEqual(len({p['object'] for p in pieces}), 2)
@@ -113,8 +113,8 @@ class Conventions(Scenario):
         # A stored view keeps its hidden lines, as a run with an output that has them does.
         _, (alone, _) = self.drawn('round.rvm', *more, outputs=('x.svg', 'x.json'))
         _, (saved,) = self.drawn('-p', 'p.strake', '--save', 'v', *more)
-        told, (stored,) = self.drawn('-p', 'p.strake', '--stored', 'v', '--verify')
-        self.assertIn('unchanged', told)
+        reported, (stored,) = self.drawn('-p', 'p.strake', '--stored', 'v', '--verify')
+        self.assertIn('unchanged', reported)
         self.assertEqual(saved, alone)
         self.assertEqual(stored, alone)
 
@@ -192,7 +192,7 @@ position = ["400mm", "200mm"]
         _, (thinned,) = self.drawn('wall.obj', *self.RUN, *style, '--thin', 'on', outputs=('y.dxf',))
         self.assertEqual(thinned, (self.folder / 'x.dxf').read_bytes())
 
-    def test_wrong_values_are_told(self):
+    def test_wrong_values_are_reported(self):
         self.write('m.obj', cube('beam', 0, (0, 0, 0), 1000))
         for option, wrong in (('--thin', 'yes'), ('--thin', '0mm'), ('--thin', '5'), ('--break-lines', 'zigzag'),
                               ('--single-line', 'on'), ('--single-line', 'DN51'), ('--single-line', '60')):

@@ -33,17 +33,17 @@ class Convert(Scenario):
         self.run_strake('clash', file, '--clearance', '20mm', '--quiet', '-o', f'{name}.json')
         self.run_strake('draw', file, '--view', 'iso', '--hidden', 'dashed', '--quiet', '-o', f'{name}.svg',
                         '-o', f'{name}.view.json')
-        told = json.loads(self.text('info', file, '--attributes', '--objects', 10**9, '--json', '--quiet'))
+        reported = json.loads(self.text('info', file, '--attributes', '--objects', 10**9, '--json', '--quiet'))
         clash = (self.folder / f'{name}.json').read_text()
         document = json.loads(clash)
-        for one in (told, document):
+        for one in (reported, document):
             one.pop('messages', None)
             one['diagnostics'] = [d for d in one.get('diagnostics', []) if d['code'] not in NOTICED]
             for of_file in one['files']:
                 for word in OF_FILES:
                     of_file.pop(word, None)
         return {'clash': document, 'svg': (self.folder / f'{name}.svg').read_text(),
-                'view': (self.folder / f'{name}.view.json').read_text(), 'info': told}
+                'view': (self.folder / f'{name}.view.json').read_text(), 'info': reported}
 
     def assert_round_trip(self, file):
         file = Path(file)
@@ -111,7 +111,7 @@ class Convert(Scenario):
                  for f, axis in (('ship.obj', ['--up-axis', 'z']), ('ship.glb', []))]
         self.assertEqual(count[0], count[1])
 
-    def test_what_is_wrong_is_said(self):
+    def test_what_is_wrong_is_stated(self):
         self.two_files()
         for arguments, code, words in (
                 (['a.obj'], 2, 'one file is given'),

@@ -41,7 +41,7 @@ class Decisions(Scenario):
     def rows(self, name='decided.csv'):
         return list(csv.DictReader(io.StringIO((self.folder / name).read_bytes().decode('utf-8-sig'))))
 
-    def told(self, *arguments, model='row.obj'):
+    def reported(self, *arguments, model='row.obj'):
         return json.loads(self.clash('--decisions', 'decided.csv', '--json', *arguments, model=model).stdout)
 
     def test_from_the_first_run_to_the_next(self):
@@ -54,14 +54,14 @@ class Decisions(Scenario):
                       'decisions of decided.csv: 1 new, 0 active, 1 reviewed, 1 approved, 0 resolved\n', table)
         self.assertRegex(table, r'(?m)^HIT +reviewed +-20[.]000 .* c1 +c2$')
         self.assertNotRegex(table, r'(?m)^HIT .* c0 +c1$')
-        told = self.told()
-        self.assertEqual([r['decision'] for r in told['results']],
+        reported = self.reported()
+        self.assertEqual([r['decision'] for r in reported['results']],
                          [{'status': 'approved', 'by': 'Ann', 'date': '2026-01-31', 'comment': 'as agreed'},
                           {'status': 'reviewed', 'by': 'Ann', 'date': '2026-01-31', 'comment': 'as agreed'},
                           {'status': 'new'}])
         plain = json.loads(self.clash('--json').stdout)
-        self.assertEqual(told['hash'], plain['hash'], 'decisions change no result')
-        self.assertEqual(told['tests'], plain['tests'])
+        self.assertEqual(reported['hash'], plain['hash'], 'decisions change no result')
+        self.assertEqual(reported['tests'], plain['tests'])
         before = (self.folder / 'decided.csv').read_bytes()
         self.clash('--decisions', 'decided.csv', '--write-decisions')
         self.assertEqual((self.folder / 'decided.csv').read_bytes(), before)
@@ -75,7 +75,7 @@ class Decisions(Scenario):
         self.decide('approved', 'approved', 'active', name='other.csv')
         self.clash('--fail-on', 'hit', '--decisions', 'other.csv', exit_code=1)
 
-    def test_what_came_back_is_told(self):
+    def test_what_came_back_is_reported(self):
         self.decide('approved', 'resolved', 'approved')
         self.write('row.obj', cubes([(1.5, 0, 0), *ROW[1:]]))
         done = self.clash('--decisions', 'decided.csv', '--fail-on', 'hit', exit_code=1)
@@ -83,15 +83,15 @@ class Decisions(Scenario):
         self.assertRegex(done.stdout, r'(?m)^HIT +found again +-20[.]000 .* c1 +c2$')
         self.assertIn('; approved, but deeper or nearer than they were: 1; resolved, but found again: 1\n', done.stdout)
         self.assertIn('2 hits, ', done.stdout)
-        told = self.told('--deeper', '2mm')
-        self.assertEqual(told['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
-        self.assertEqual(told['decisions']['deeper_mm'], 2)
+        reported = self.reported('--deeper', '2mm')
+        self.assertEqual(reported['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual(reported['decisions']['deeper_mm'], 2)
 
     def test_what_is_mended_is_listed_and_keeps_its_row(self):
         rows = self.decide('resolved', 'approved')
         self.write('row.obj', cubes([(-50, 0, 0), *ROW[1:3], (245, 0, 0)]))
-        told = self.told()
-        self.assertEqual(told['decisions']['not_found'],
+        reported = self.reported()
+        self.assertEqual(reported['decisions']['not_found'],
                          [{'key': rows[0]['key'], 'status': 'resolved', 'by': 'Ann', 'date': '2026-01-31',
                            'comment': 'as agreed'}])
         self.assertIn('; no longer found: 1\n', self.clash('--decisions', 'decided.csv', '--write-decisions').stdout)
@@ -120,7 +120,7 @@ class Decisions(Scenario):
         self.assertNotIn('renamed', done.stderr)
         self.assertIn(', 2 approved\n', done.stdout)
 
-    def test_a_file_that_somebody_says_was_renamed(self):
+    def test_a_file_that_somebody_states_was_renamed(self):
         rows = self.decide('approved')
         self.write('own.csv', 'key;status\n' + rows[0]['key'] + ';Approved\n')
         (self.folder / 'row.obj').rename(self.folder / 'n.obj')
@@ -130,7 +130,7 @@ class Decisions(Scenario):
         done = self.clash(*run, '--match-files', 'row.obj=x.obj', model='n.obj', exit_code=2)
         self.assertIn("--match-files: the ", done.stderr)
 
-    def test_the_command_that_told_of_a_new_name_goes_on_the_next_night(self):
+    def test_the_command_that_reported_a_new_name_goes_on_the_next_night(self):
         self.decide('approved')
         self.write('n.obj', cubes([*ROW, (320, 0, 0)]))
         run = ['--decisions', 'decided.csv', '--match-files', 'row.obj=n.obj', '--write-decisions']
@@ -203,16 +203,16 @@ class Decisions(Scenario):
         self.assertIn('; resolved, but found again: 1\n', done.stdout)
         self.assertIn('(1 not listed)', done.stdout)
         self.assertIn(', 1 approved\n', done.stdout)
-        self.assertEqual(len(self.told('--contacts', 'count')['results']), 2)
+        self.assertEqual(len(self.reported('--contacts', 'count')['results']), 2)
         self.write('row.obj', cubes([(0, 0, 0), (100, 0, 0)]))
         self.clash(*run, '--fail-on', 'contact')
 
-    def test_what_a_run_does_not_look_for_is_told(self):
+    def test_what_a_run_does_not_look_for_is_reported(self):
         self.decide('approved')
-        told = 'decided.csv: 1 clash is approved at places that this run does not count: '
-        self.assertNotIn(told, self.clash('--decisions', 'decided.csv').stderr)
+        reported = 'decided.csv: 1 clash is approved at places that this run does not count: '
+        self.assertNotIn(reported, self.clash('--decisions', 'decided.csv').stderr)
         for option in ('--regions', '0'), ('--narrow-phase', 'sphere-subdivision'):
-            self.assertIn(told, self.clash('--decisions', 'decided.csv', *option).stderr)
+            self.assertIn(reported, self.clash('--decisions', 'decided.csv', *option).stderr)
 
     def test_the_hint_counts_what_is_not_approved(self):
         files = []
@@ -277,23 +277,23 @@ class Decisions(Scenario):
             pipes[0].read_bytes()
             path.write_bytes(saved)
             pipes[1].read_bytes()
-            _, told = run.communicate(timeout=100)
-        self.assertEqual(run.returncode, 3, told)
-        self.assertIn('decided.csv: was changed while the run went on, and is left as it is (run the test again)', told)
+            _, reported = run.communicate(timeout=100)
+        self.assertEqual(run.returncode, 3, reported)
+        self.assertIn('decided.csv: was changed while the run went on, and is left as it is (run the test again)', reported)
         self.assertEqual(path.read_bytes(), saved)
         self.assertEqual(self.files(), before)
 
-    def test_what_is_wrong_is_told_with_its_line(self):
+    def test_what_is_wrong_is_reported_with_its_line(self):
         key = '0' * 26
-        for text, told in ((f'key,status\n{key},done\n', "bad.csv, line 2: 'done' is no status"),
+        for text, reported in ((f'key,status\n{key},done\n', "bad.csv, line 2: 'done' is no status"),
                            (f'key,status,date\n{key},new,30.2.2026\n', "bad.csv, line 2: '30.2.2026' is no date"),
                            (f'key,status\n{key},new\n{key},new\n', 'bad.csv, line 3: the key stands in line 2 already'),
                            ('key,state\n', "bad.csv, line 1: has no column 'status'"), ('', 'bad.csv, line 1: is empty'),
                            ('key,status\nabc,new\n', "bad.csv, line 2: 'abc' is no key")):
-            with self.subTest(told):
+            with self.subTest(reported):
                 self.write('bad.csv', text)
                 done = self.clash('--decisions', 'bad.csv', '--write-decisions', exit_code=3)
-                self.assertIn(told, done.stderr)
+                self.assertIn(reported, done.stderr)
                 self.assertEqual(done.stdout, '')
                 self.assertEqual((self.folder / 'bad.csv').read_text(), text)
         done = self.clash('--decisions', 'missing.csv', exit_code=3)
@@ -301,13 +301,13 @@ class Decisions(Scenario):
 
     def test_what_does_not_go_together(self):
         self.write('d.csv', 'key,status\n')
-        for arguments, told in ((['--write-decisions'], '--decisions'), (['--deeper', '1mm'], '--decisions'),
+        for arguments, reported in ((['--write-decisions'], '--decisions'), (['--deeper', '1mm'], '--decisions'),
                                 (['--match-files', 'a=b'], '--decisions'),
                                 (['--decisions', 'd.csv', '-o', 'd.csv'], 'would be overwritten'),
                                 (['--decisions', 'd.csv', '--deeper', '-1mm'], '--deeper'),
                                 (['--decisions', 'd.txt', '--write-decisions'], '--decisions')):
             with self.subTest(arguments=arguments):
-                self.assertIn(told, self.clash(*arguments, exit_code=2).stderr)
+                self.assertIn(reported, self.clash(*arguments, exit_code=2).stderr)
         self.assertEqual((self.folder / 'd.csv').read_text(), 'key,status\n')
         self.assertNotIn('d.txt', self.files())
 

@@ -19,23 +19,23 @@ class DrawDiff(Scenario):
         self.assertEqual(done.returncode, exit_code, done.stderr)
         return done
 
-    def test_what_moved_is_told_and_drawn(self):
+    def test_what_moved_is_reported_and_drawn(self):
         self.draw('old.json', 0)
         self.draw('new.json', 25)
         done = self.diff('-o', 'd.json', '-o', 'd.svg', '--fail-on', 'visible', exit_code=1)
-        told = json.loads((self.folder / 'd.json').read_text(encoding='utf-8'))
-        self.assertIn('moves', {o['id'] for o in told['objects']})
-        self.assertGreater(told['counts']['new']['lines'], 8)
-        self.assertGreater(told['counts']['gone']['lines'], 8)
+        reported = json.loads((self.folder / 'd.json').read_text(encoding='utf-8'))
+        self.assertIn('moves', {o['id'] for o in reported['objects']})
+        self.assertGreater(reported['counts']['new']['lines'], 8)
+        self.assertGreater(reported['counts']['gone']['lines'], 8)
         for change in ('new', 'gone', 'changed'):
-            self.assertEqual(sum(line['change'] == change for line in told['lines']), told['counts'][change]['lines'])
-            self.assertRegex(done.stdout, rf"{told['counts'][change]['lines']} {change} \(")
+            self.assertEqual(sum(line['change'] == change for line in reported['lines']), reported['counts'][change]['lines'])
+            self.assertRegex(done.stdout, rf"{reported['counts'][change]['lines']} {change} \(")
         svg = (self.folder / 'd.svg').read_text(encoding='utf-8')
         ET.fromstring(svg)
         for layer in ('same-visible', 'gone-visible', 'new-visible'):
             self.assertIn(f'id="{layer}"', svg)
         same = json.loads(self.diff('--json').stdout)
-        self.assertEqual(same, told)
+        self.assertEqual(same, reported)
         for threads in (1, 3, 8):
             self.diff('-o', 'e.svg', '--threads', threads)
             self.assertEqual((self.folder / 'e.svg').read_text(encoding='utf-8'), svg)
@@ -57,11 +57,11 @@ class DrawDiff(Scenario):
     def test_hidden_lines_and_settings(self):
         self.draw('old.json', 0)
         self.draw('new.json', 0, '--stage', 'none')
-        told = json.loads(self.diff('--json', '--fail-on', 'visible', exit_code=1).stdout)
-        self.assertEqual(told['settings'], [{'setting': 'settings.stage', 'before': '"global"', 'after': '"none"'}])
-        self.assertGreater(told['counts']['changed']['lines'], 0)
-        self.assertEqual(told['counts']['gone']['lines'] + told['counts']['new']['lines'], 0)
-        self.assertTrue(all(line['was']['state'].startswith('hidden') for line in told['lines']))
+        reported = json.loads(self.diff('--json', '--fail-on', 'visible', exit_code=1).stdout)
+        self.assertEqual(reported['settings'], [{'setting': 'settings.stage', 'before': '"global"', 'after': '"none"'}])
+        self.assertGreater(reported['counts']['changed']['lines'], 0)
+        self.assertEqual(reported['counts']['gone']['lines'] + reported['counts']['new']['lines'], 0)
+        self.assertTrue(all(line['was']['state'].startswith('hidden') for line in reported['lines']))
 
     def test_what_is_no_drawing_is_refused(self):
         self.draw('old.json', 0)

@@ -69,7 +69,7 @@ class Draw(Scenario):
         cut = pieces('--limits', '0,0,0,40,40,40')
         self.assertTrue(any(piece['state'] == 'clipped' for piece in cut))
 
-    def test_polylines_are_hidden_by_their_own_faces_if_asked_for(self):
+    def test_polylines_are_hidden_by_their_own_faces_if_requested(self):
         # Of one object: a line inside the cube, and one on its upper face.
         lines = 'v 20 40 50\nv 80 40 50\nv 20 40 100\nv 80 40 100\nl 9 10\nl 11 12\n'
         self.write('pipe.obj', cube('pipe', 0, (0, 0, 0), 100) + lines)
@@ -123,7 +123,7 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--visible-only', done.stderr)
 
-    def test_binary_rows_say_what_json_says(self):
+    def test_binary_rows_state_what_json_states(self):
         self.two_files()
         expected = None
         for threads in (1, 3, 8):
@@ -169,7 +169,7 @@ class Draw(Scenario):
         done = self.run_strake('draw', 'diff', 'x.json', 'y.view')
         self.assertRegex(done.stderr, r'y\.view: .*ends in row')
 
-    def test_what_is_clipped_far_out_is_within_what_files_can_say(self):
+    def test_what_is_clipped_far_out_is_within_what_files_can_state(self):
         self.write('one.obj', cube('a', 0, (0, 0, 0), 300) + cube('b', 1, (50, 50, 50), 300))
         for target, scale, code in (('1000000,0,0', '100:1', 0), ('100000000,0,0', '1:1', 0),
                                     ('1000000,0,0', '1000000:1', 2)):
@@ -212,11 +212,11 @@ class Draw(Scenario):
             return json.loads(done.stdout)
 
         # Square to a face: its sides are true in the plane of the target, shorter by half twice as far away.
-        seen = view('--eye', '500,-1000,500', '--target', '500,0,500', '--scale', '1:10')
-        self.assertEqual(seen['view']['projection'], 'perspective')
-        self.assertEqual(seen['view']['perspective']['eye_mm'], [500, -1000, 500])
+        drawn_view = view('--eye', '500,-1000,500', '--target', '500,0,500', '--scale', '1:10')
+        self.assertEqual(drawn_view['view']['projection'], 'perspective')
+        self.assertEqual(drawn_view['view']['perspective']['eye_mm'], [500, -1000, 500])
         lengths = {'visible': set(), 'hidden_by_self': set()}
-        for piece in seen['pieces']:
+        for piece in drawn_view['pieces']:
             (ax, ay), (bx, by) = piece['a_paper_mm'], piece['b_paper_mm']
             if piece['a_mm'][1] == piece['b_mm'][1]:
                 lengths[piece['state']].add(round(abs(ax - bx) + abs(ay - by), 3))
@@ -248,7 +248,7 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn('empty-sheet', done.stderr)
 
-    def test_sections_cut_away_what_they_say(self):
+    def test_sections_cut_away_what_they_state(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
 
         def cut(*options):
@@ -267,7 +267,7 @@ class Draw(Scenario):
         outline = [piece for piece in cut('--section', 'z>40mm', '--threads', '3')[0] if piece['kind'] == 'section']
         self.assertEqual(len(outline), 4)
         self.assertIn('id="visible-section"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
-        # Three planes leave a corner; with a normal of decimals the rounding is told.
+        # Three planes leave a corner; with a normal of decimals the rounding is reported.
         self.assertEqual(len({p['edge'] for p in cut('--section', 'x>40mm', '--section', 'y>40mm', '--section',
                                                      'z>40mm')[0] if p['kind'] == 'section'}), 9)
         self.assertIn('is taken as normal', cut('--section', '0.3333333,1,0>20mm')[1])
@@ -288,13 +288,13 @@ class Draw(Scenario):
                 kinds.setdefault(piece['object'], set()).add((piece['kind'], piece['state']))
             return drawing, kinds, done.stderr
 
-        plain, kinds, said = cut()
+        plain, kinds, stated = cut()
         self.assertIn('section', {kind for kind, _ in kinds['BOLT-1']})
         self.assertNotIn('uncut', plain['settings'])
         self.assertNotIn('objects_uncut', plain['counts'])
-        self.assertNotIn('left whole', said)
+        self.assertNotIn('left whole', stated)
         for selection in (['BOLT*'], ['name = "BOLT-1"', 'BOLT-2']):
-            drawing, kinds, said = cut(*[word for text in selection for word in ('--uncut', text)])
+            drawing, kinds, stated = cut(*[word for text in selection for word in ('--uncut', text)])
             self.assertEqual({kind for kind, _ in kinds['BOLT-1']} & {'section', 'hatch'}, set())
             self.assertNotIn('clipped', {state for _, state in kinds['BOLT-1']})
             # What lies wholly beyond the plane is cut away like everything else.
@@ -302,7 +302,7 @@ class Draw(Scenario):
             self.assertIn('hatch', {kind for kind, _ in kinds['plate']})
             self.assertEqual(drawing['counts']['objects_uncut'], 1)
             self.assertEqual(drawing['settings']['uncut'], sorted(selection))
-            self.assertIn('1 object is left whole by the sections', said)
+            self.assertIn('1 object is left whole by the sections', stated)
             self.assertIn(' objects-uncut="1"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
         self.assertIn('0 objects are left whole', cut('--uncut', 'BOLT-2')[2])
         # Which ones are left whole is a setting that a comparison names; their order says nothing.
@@ -316,7 +316,7 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--section', done.stderr)
 
-    def test_flush_seams_of_one_colour_are_left_out_if_asked_for(self):
+    def test_flush_seams_of_one_colour_are_left_out_if_requested(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (100, 0, 0), 100)
                    + cube('c', 2, (200, 0, 0), 80))
 
@@ -337,12 +337,12 @@ class Draw(Scenario):
         self.assertNotIn('flush_seams', plain['settings'])
         self.assertNotIn('edges_with_seams', plain['counts'])
         for more in ((), ('--threads', 3), ('--solver', 'brute-force'), ('--global', 'push')):
-            drawing, length, said = drawn('--flush-seams', 'off', *more)
+            drawing, length, stated = drawn('--flush-seams', 'off', *more)
             # Of the smaller cube the bottom and the front are flush; what the larger one has beyond it stays.
             self.assertEqual(length, {100: 0, 200: 2 * 20 + 200 + 2 * 80}, more)
             self.assertEqual(drawing['settings']['flush_seams'], 'off')
             self.assertEqual(drawing['counts']['edges_with_seams'], 8 + 4)
-            self.assertIn('flush seams of 12 edges are left out', said)
+            self.assertIn('flush seams of 12 edges are left out', stated)
             self.assertEqual(drawing['counts']['objects_drawn'], plain['counts']['objects_drawn'])
         # Another colour is another material.
         materials = 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n'
@@ -351,7 +351,7 @@ class Draw(Scenario):
                    + cube('b', 1, (100, 0, 0), 100).replace('f ', 'usemtl blue\nf ', 1))
         self.assertEqual(drawn('--flush-seams', 'off')[1][100], 800)
 
-    def test_hatches_are_what_the_table_says(self):
+    def test_hatches_are_what_the_table_states(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (200, 0, 0), 100))
 
         def hatch(*options):
@@ -377,7 +377,7 @@ class Draw(Scenario):
             self.assertEqual(done.returncode, 2, (wrong, done.stderr))
             self.assertIn('--hatch', done.stderr, wrong)
 
-    def test_sections_that_make_no_sense_are_told(self):
+    def test_sections_that_make_no_sense_are_reported(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         for plane, words in (('0,0,0>1mm', 'neither an axis nor the normal'), ('z', 'no section plane'),
                              ('z>nan', 'nan'), ('z>12furlong', 'unit'), ('z>4,5m', 'write 4.5m'), ('nan,0,1>1mm', 'neither an axis'),
@@ -409,7 +409,7 @@ class Draw(Scenario):
         self.assertNotIn('odd.obj: wire: ', done.stderr)  # seen end-on: nothing is wrong with it
         self.assertRegex(done.stderr, r'objects hidden +1\n')
 
-    def test_the_account_tells_of_a_file_that_ends_early(self):
+    def test_the_account_reports_a_file_that_ends_early(self):
         rest = 'the rest of cut.rvm, which ends early'
         self.write_rvm('cut.rvm', [('/A', (0, 0, 0)), ('/B', (500, 0, 0))], whole=False)
         done = self.run_strake('draw', 'cut.rvm', '-o', 'x.json')
@@ -430,14 +430,14 @@ class Draw(Scenario):
         same = self.run_strake('draw', 'diff', 'x.json', 'y.view', '--fail-on', 'any')
         self.assertEqual(same.returncode, 0, same.stderr)
 
-    def test_the_brute_force_says_what_it_costs(self):
+    def test_the_brute_force_states_what_it_costs(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         run = ['draw', 'a.obj', '--solver', 'brute-force', '-o', 'x.svg']
         done = self.run_strake(*run, '--threads', 1)
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = 'brute-force: 12 edges and 12 triangles, 144 tests: less than a second with 1 worker'
-        self.assertIn(told, done.stderr)
-        self.assertLess(done.stderr.index(told), done.stderr.index('visible of'))
+        reported = 'brute-force: 12 edges and 12 triangles, 144 tests: less than a second with 1 worker'
+        self.assertIn(reported, done.stderr)
+        self.assertLess(done.stderr.index(reported), done.stderr.index('visible of'))
         self.assertNotIn('brute-force', self.run_strake(*run[:2], *run[4:]).stderr)
         self.assertEqual(self.run_strake(*run, '--quiet').stderr, '')
 
@@ -474,8 +474,8 @@ class Draw(Scenario):
                   for selector in rule.split(',')}
         layers = re.findall(r'class="((?:visible|hidden) \w+)"', text)
         self.assertTrue({'visible contour', 'visible sharp', 'hidden sharp'} <= set(layers), layers)
-        seen = {widths['.' + layer.replace(' ', '.') + ' path'] for layer in layers if layer.startswith('visible')}
-        self.assertEqual(seen, {0.5})
+        drawn_view = {widths['.' + layer.replace(' ', '.') + ' path'] for layer in layers if layer.startswith('visible')}
+        self.assertEqual(drawn_view, {0.5})
         self.assertEqual(widths['.hidden path'], 0.25)
 
     def test_hidden_lines_are_dashed_to_fit_and_may_be_two_layers(self):
@@ -523,7 +523,7 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn('nothing is left to draw inside the limits', done.stderr)
 
-    def test_one_far_object_is_told_and_left_out_on_request(self):
+    def test_one_far_object_is_reported_and_left_out_on_request(self):
         self.write('far.obj', ''.join(cube(f'a{i}', i, (150 * i, 0, 0), 100) for i in range(5))
                    + cube('lost', 5, (0, 100000, 0), 100))
 
@@ -533,15 +533,15 @@ class Draw(Scenario):
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stderr, json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
 
-        told, drawing = drawn()
+        reported, drawing = drawn()
         self.assertIn("warning far-object: 'lost' (far.obj) lies 99.9 m from the rest: the view is about 1:500 on 420 x 297 mm "
-                      "for it, without it 1:2 on 420 x 297 mm (--limits auto leaves it out)", told)
+                      "for it, without it 1:2 on 420 x 297 mm (--limits auto leaves it out)", reported)
         self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:500', 6))
         self.assertNotIn('far_objects', drawing)
         (self.folder / 'x.json').rename(self.folder / 'whole.json')
-        told, drawing = drawn('--limits', 'auto')
-        self.assertIn("note far-object-left-out: 'lost' (far.obj) lies 99.9 m from the rest and is left out", told)
-        self.assertNotIn('warning', told)
+        reported, drawing = drawn('--limits', 'auto')
+        self.assertIn("note far-object-left-out: 'lost' (far.obj) lies 99.9 m from the rest and is left out", reported)
+        self.assertNotIn('warning', reported)
         self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:2', 5))
         self.assertEqual([(far['name'], far['file']) for far in drawing['far_objects']], [('lost', 'far.obj')])
         self.assertRegex((self.folder / 'x.svg').read_text(encoding='utf-8'), '<far-object id="[^"]*" name="lost" file="far.obj"/>')
@@ -556,7 +556,7 @@ class Draw(Scenario):
         self.assertNotIn('far-object', drawn('--limits', '-1,-1,-1,800,200,200')[0])
         self.assertNotIn('far-object', drawn('--select', 'not lost', '--limits', 'auto')[0])
 
-    def test_the_paper_that_is_asked_for(self):
+    def test_the_paper_that_is_requested(self):
         self.write('bar.obj', cube('bar', 0, (0, 0, 0), 800))
         where = ('draw', 'bar.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top')
 

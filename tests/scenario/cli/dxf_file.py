@@ -121,7 +121,7 @@ class View:
 
 def differences(document, view, sag):
     """What is in the DXF and not in the view, or the other way round: a list of texts, empty where they agree."""
-    told = []
+    reported = []
     straight, curves = Counter(), defaultdict(list)
     for entity in document.modelspace():
         layer = entity.dxf.layer
@@ -132,9 +132,9 @@ def differences(document, view, sag):
             straight[(layer, *segment)] += 1
     for layer, a, b in (straight - view.straight).elements():
         if math.dist(a, b) / 1000 > TINY:
-            told.append(f'{layer}: {a} to {b} is no line of the view')
+            reported.append(f'{layer}: {a} to {b} is no line of the view')
     missing = view.straight - straight
-    told += [f'{layer}: {a} to {b} is missing' for layer, a, b in missing.elements()]
+    reported += [f'{layer}: {a} to {b} is missing' for layer, a, b in missing.elements()]
     for key in set(curves) | set(view.chords):
         flat = [[(p[0], p[1]) for p in entity.flattening(GRID / 4)] for entity in curves[key]]
         arcs = [pair for points in flat for pair in zip(points, points[1:])]
@@ -143,12 +143,12 @@ def differences(document, view, sag):
             for p in points[::max(1, len(points) // 12)]:
                 off = min((distance(p, a, b) for a, b in chords), default=math.inf)
                 if off > sag + GRID:
-                    told.append(f'{key}: an arc is {off} mm from all its chords at {p}')
+                    reported.append(f'{key}: an arc is {off} mm from all its chords at {p}')
         for a, b in chords:
             if math.dist(a, b) <= TINY:
                 continue
             for p in (a, b, ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)):
                 off = min((distance(p, *arc) for arc in arcs), default=math.inf)
                 if off > sag + GRID:
-                    told.append(f'{key}: a chord is {off} mm from all arcs at {p}')
-    return told
+                    reported.append(f'{key}: a chord is {off} mm from all arcs at {p}')
+    return reported

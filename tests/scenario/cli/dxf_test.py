@@ -57,8 +57,8 @@ class Dxf(Scenario):
                 document, faults = read(self.folder / f'{name}.dxf')
                 self.assertEqual(faults, [])
                 view = json.loads((self.folder / f'{name}.json').read_text(encoding='utf-8'))
-                told = differences(document, View(view, '--hidden' in arguments), view['settings'].get('sag_mm') or .5)
-                self.assertEqual(told[:5], [], f'{len(told)} differences')
+                reported = differences(document, View(view, '--hidden' in arguments), view['settings'].get('sag_mm') or .5)
+                self.assertEqual(reported[:5], [], f'{len(reported)} differences')
                 arcs += len(document.modelspace().query('ARC CIRCLE ELLIPSE'))
                 self.check_sheet(document, view)
                 count += 1
@@ -122,16 +122,16 @@ class Dxf(Scenario):
 
     def check_windows(self, document):
         """Each line of model space is seen in one window; returns what these see."""
-        seen = []
+        found = []
         for window in document.layouts.get('Sheet').query('VIEWPORT')[1:]:
             half = window.dxf.view_height / 2, window.dxf.view_height / window.dxf.height * window.dxf.width / 2
             x, y, *_ = window.dxf.view_center_point
-            seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
+            found.append((x - half[1], y - half[0], x + half[1], y + half[0]))
         for entity in document.modelspace().query('LINE'):
             for p in (entity.dxf.start, entity.dxf.end):
-                within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
+                within = [box for box in found if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
                 self.assertEqual(len(within), 1, p)
-        return seen
+        return found
 
     def test_views_of_a_sheet_lie_side_by_side_and_its_windows_show_them(self):
         self.models()
@@ -140,9 +140,9 @@ class Dxf(Scenario):
         self.assertEqual(faults, [])
         sheet = document.layouts.get('Sheet')
         self.assertEqual((sheet.dxf.paper_width, sheet.dxf.paper_height), (594, 420))
-        seen = self.check_windows(document)
-        self.assertEqual(len(seen), 4)
-        front, top = seen[:2]
+        found = self.check_windows(document)
+        self.assertEqual(len(found), 4)
+        front, top = found[:2]
         self.assertAlmostEqual(front[0], top[0], 2, 'a view below another is in line with it')
         texts = [text.dxf.text for text in sheet.query('TEXT')]
         for wanted in ('STR-1200-001', 'DECK 1', 'CL', 'A2'):

@@ -255,7 +255,7 @@ class Peers(unittest.TestCase):
         with (self.folder / 'out/evaluation-peers.csv').open(encoding='utf-8', newline='') as file:
             self.assertEqual([row['cpu_s'] for row in csv.DictReader(file)], ['3', '3'])
 
-    def test_what_was_measured_is_not_asked_again_and_what_was_not_there_is(self):
+    def test_what_was_measured_is_not_requested_again_and_what_was_not_there_is(self):
         self.play([peer_row()])
         self.evaluate(only='pairs-embree,drawing-occt')
         self.assertEqual(self.rows()['drawing-occt'][0]['outcome'], 'not there')

@@ -51,7 +51,7 @@ class Files(Scenario):
                (['generate', 'ship', '--objects', '100', '-o'], '.obj'),
                (['generate', 'ship', '--objects', '100', '-o', 'null.glb', '--truth'], '.json')]
 
-    def test_a_failed_write_is_told_and_leaves_nothing(self):
+    def test_a_failed_write_is_reported_and_leaves_nothing(self):
         """A file larger than the limit on files, and a full disk."""
         self.two_files()
         os.symlink('/dev/null', self.folder / 'null.glb')
@@ -77,7 +77,7 @@ class Files(Scenario):
                 os.unlink(self.folder / ('x' + ending))
                 self.assertEqual(self.files(), before)
 
-    def test_standard_output_that_is_full_is_told(self):
+    def test_standard_output_that_is_full_is_reported(self):
         self.two_files()
         self.assertEqual(self.run_strake('clash', 'a.obj', '-o', 'old.json').returncode, 0)
         for arguments in (['clash', 'a.obj'], ['clash', 'a.obj', '--json'], ['info', 'a.obj'],
@@ -108,7 +108,7 @@ class Files(Scenario):
                 self.assertIn('overwritten', done.stderr)
                 self.assertEqual((self.folder / 'model.json').read_text(), model)
 
-    def test_two_outputs_that_are_one_file_are_said_at_once(self):
+    def test_two_outputs_that_are_one_file_are_stated_at_once(self):
         os.mkdir(self.folder / 'sub')
         os.symlink('sub', self.folder / 'way')
         os.symlink('y.json', self.folder / 'link.csv')
@@ -151,7 +151,7 @@ class Files(Scenario):
             done = self.run_strake('generate', 'ship', '--objects', 100, '-o', name)
             self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_outputs_that_cannot_be_are_said_at_once(self):
+    def test_outputs_that_cannot_be_are_refused_at_once(self):
         self.two_files()
         done = self.run_strake('draw', 'missing.obj', '-o', 'x.svg', '-o', './x.svg')
         self.assertEqual(done.returncode, 2)

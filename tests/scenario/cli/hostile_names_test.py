@@ -41,7 +41,7 @@ class HostileNames(Scenario):
     def names(file):
         return NAMES + LONG if file == FILES[0] else NAMES
 
-    def told(self, *command, code=(0,)):
+    def reported(self, *command, code=(0,)):
         done = self.run_strake(*command, encoding='utf-8', errors='surrogateescape')
         self.assertIn(done.returncode, code, (command, done.stderr[-2000:]))
         for stream in (done.stdout, done.stderr):
@@ -76,72 +76,72 @@ class HostileNames(Scenario):
         json.loads(done.stdout)
 
     def test_models(self):
-        self.told('info', *self.models)
-        self.told('info', *self.models, '--objects', 200, '--attributes')
+        self.reported('info', *self.models)
+        self.reported('info', *self.models, '--objects', 200, '--attributes')
         self.check_json('info', *self.models, '--objects', 200, '--attributes')
         for more in ([], ['--group-by', 'element'], ['--group-by', 'assembly'], ['--group-by', 'files'], ['--self']):
-            self.told('clash', *self.models, '--stats', *more, '-o', 'c.json', '-o', 'c.csv', '--log-pairs', 'log.csv')
+            self.reported('clash', *self.models, '--stats', *more, '-o', 'c.json', '-o', 'c.csv', '--log-pairs', 'log.csv')
             for name in ('c.json', 'c.csv', 'log.csv'):
                 self.check_file(name)
         exchanged = ('c.xlsx', 'c.xml', 'c.ifcclash.json', 'c.joints.csv')
-        self.told('clash', *self.models, '--group-by', 'files', '--columns', '@TYPE', *(w for n in exchanged for w in ('-o', n)))
+        self.reported('clash', *self.models, '--group-by', 'files', '--columns', '@TYPE', *(w for n in exchanged for w in ('-o', n)))
         for name in exchanged:
             self.check_file(name)
-        self.told('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions', '-o', 'old.json')
-        self.told('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions')
+        self.reported('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions', '-o', 'old.json')
+        self.reported('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions')
         self.check_file('d.csv')
-        self.told('clash', 'diff', 'old.json', 'c.json', '-o', 'diff.json')
+        self.reported('clash', 'diff', 'old.json', 'c.json', '-o', 'diff.json')
         self.check_file('diff.json')
-        self.told('clash', *self.models, '--a', f'name = "{PLANTED}*"', code=(0, 2))
+        self.reported('clash', *self.models, '--a', f'name = "{PLANTED}*"', code=(0, 2))
 
     def test_drawings(self):
-        self.told('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.dxf', '-o', 'd.json', '-o', 'd.view',
+        self.reported('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.dxf', '-o', 'd.json', '-o', 'd.view',
                   '--stats')
-        self.told('draw', *self.models[:2], '-o', 'e.view')
-        self.told('draw', 'diff', 'd.view', 'e.view', '-o', 'diff.svg', '-o', 'diff.json')
+        self.reported('draw', *self.models[:2], '-o', 'e.view')
+        self.reported('draw', 'diff', 'd.view', 'e.view', '-o', 'diff.svg', '-o', 'diff.json')
         self.write('s.toml', '[[view]]\ndirection = "top"\n[[tag]]\nselect = "name = \'*\'"\ntext = "{name}"\n')
-        self.told('draw', *self.models[:2], '--sheet', 's.toml', '-o', 's.svg', code=(0, 3))
+        self.reported('draw', *self.models[:2], '--sheet', 's.toml', '-o', 's.svg', code=(0, 3))
         for name in ('d.svg', 'd.dxf', 'd.json', 'diff.svg', 'diff.json'):
             self.check_file(name)
 
     def test_projects(self):
-        self.told('project', 'new', 'p.strake', *self.models[:-1])
-        self.told('project', 'add', 'p.strake', self.models[-1])
-        self.told('project', 'info', 'p.strake')
-        self.told('clash', '-p', 'p.strake', '--self', '-o', 'c.json')
-        self.told('draw', '-p', 'p.strake', '--save', 'top', '--view', 'top', '-o', 'v.svg')
-        self.told('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed', '--comment', NAMES[0],
+        self.reported('project', 'new', 'p.strake', *self.models[:-1])
+        self.reported('project', 'add', 'p.strake', self.models[-1])
+        self.reported('project', 'info', 'p.strake')
+        self.reported('clash', '-p', 'p.strake', '--self', '-o', 'c.json')
+        self.reported('draw', '-p', 'p.strake', '--save', 'top', '--view', 'top', '-o', 'v.svg')
+        self.reported('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed', '--comment', NAMES[0],
                   '--assignee', NAMES[3], '--by', NAMES[7])
         for what in ('files', 'shapes', 'revisions', 'tests', 'runs', 'clashes', 'views'):
-            self.told('project', 'list', 'p.strake', what, '--rows', 0)
+            self.reported('project', 'list', 'p.strake', what, '--rows', 0)
             self.check_json('project', 'list', 'p.strake', what)
         for verb in (['clash', 'list'], ['clash', 'history']):
-            self.told(*verb, '-p', 'p.strake')
-            self.told(*verb, '-p', 'p.strake', '-o', 'l.csv', '-o', 'l.json')
+            self.reported(*verb, '-p', 'p.strake')
+            self.reported(*verb, '-p', 'p.strake', '-o', 'l.csv', '-o', 'l.json')
             self.check_file('l.csv')
             self.check_file('l.json')
         key = json.loads((self.folder / 'l.json').read_text()) and next(
             row['key'] for row in json.loads(self.run_strake('clash', 'list', '-p', 'p.strake', '--json').stdout)['clashes'])
-        self.told('clash', 'history', '-p', 'p.strake', key)
+        self.reported('clash', 'history', '-p', 'p.strake', key)
         (self.folder / FILES[0]).write_text(gltf(('other', {}, None, [(name + '2', {}, .1, []) for name in NAMES])),
                                             encoding='utf-8')
-        self.told('project', 'update', 'p.strake', '-o', 'u.json', '-o', 'u.csv')
+        self.reported('project', 'update', 'p.strake', '-o', 'u.json', '-o', 'u.csv')
         self.check_file('u.json')
         self.check_file('u.csv')
-        self.told('clash', '-p', 'p.strake', '--self')
-        self.told('project', 'check', 'p.strake')
-        self.told('project', 'export', 'p.strake', '-o', 'x.glb', '-o', 'x.obj', '-o', 'x.csv')
+        self.reported('clash', '-p', 'p.strake', '--self')
+        self.reported('project', 'check', 'p.strake')
+        self.reported('project', 'export', 'p.strake', '-o', 'x.glb', '-o', 'x.obj', '-o', 'x.csv')
         self.check_file('x.csv')
         count = len(NAMES) * len(FILES)
         for name in ('x.glb', 'x.obj'):
-            self.assertIn(f'  objects     {count}\n', self.told('info', name), name)
+            self.assertIn(f'  objects     {count}\n', self.reported('info', name), name)
         for file in FILES:
-            self.told('project', 'remove', 'p.strake', '--', file)
+            self.reported('project', 'remove', 'p.strake', '--', file)
 
     def test_names_of_outputs(self):
         for name in (*FILES, b'no\xffutf-8'):
             out = os.fsdecode(name).removesuffix('.gltf') + '.svg'
-            self.told('draw', self.models[3], '--stats', '-o', './' + out)
+            self.reported('draw', self.models[3], '--stats', '-o', './' + out)
             done = self.run_strake('draw', self.models[3], '--stats', '--json', '-o', './' + out)
             self.assertEqual(done.returncode, 0, done.stderr)
             json.loads(done.stderr.split('\n')[-2])
@@ -154,7 +154,7 @@ class HostileNames(Scenario):
                             ['clash', self.models[0], '--a', name], ['project', 'list', './' + name],
                             ['clash', self.models[0], '--clearance', name], ['draw', self.models[0], '--view', name], [name],
                             ['clash', 'set', '-p', 'p.strake', name], ['rules', 'show', name], ['help', name]):
-                self.told(*command, code=(0, 2, 3))
+                self.reported(*command, code=(0, 2, 3))
 
 
 if __name__ == '__main__':

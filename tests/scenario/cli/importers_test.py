@@ -47,8 +47,8 @@ class Importers(Scenario):
     def test_the_example_of_the_page_is_read_and_its_scene_is_kept(self):
         first = self.clashes('model.boxes')
         self.assertIn('model.boxes: BOXES, 2 objects, unit mm (stated), z up', first.stderr)
-        told = json.loads(first.stdout)
-        self.assertEqual([row['class'] for row in told['results']], ['HIT'])
+        reported = json.loads(first.stdout)
+        self.assertEqual([row['class'] for row in reported['results']], ['HIT'])
         self.assertEqual(self.clashes('model.boxes').stdout, first.stdout)
         self.assertEqual(self.calls(), 1, 'the scene is found')
         off = self.clashes('model.boxes', env={'STRAKE_CACHE': 'off'})
@@ -126,8 +126,8 @@ class Importers(Scenario):
             time.sleep(0.01)
         importer = int((self.folder / 'pid').read_text())
         run.send_signal(signal.SIGINT)
-        _, told = run.communicate(timeout=60)
-        self.assertEqual(run.returncode, 130, told)
+        _, reported = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 130, reported)
         until = time.monotonic() + 30
         while self.is_alive(importer) and time.monotonic() < until:
             time.sleep(0.01)
@@ -144,7 +144,7 @@ class Importers(Scenario):
         done = self.run_strake('info', 'model.slow', env={'STRAKE_IMPORT_LIMIT': 'soon'})
         self.assertEqual((done.returncode, 'STRAKE_IMPORT_LIMIT' in done.stderr), (2, True))
 
-    def test_files_lie_on_a_map_where_that_is_asked_for(self):
+    def test_files_lie_on_a_map_where_that_is_requested(self):
         importer = self.folder / 'bin' / 'strake-import-boxes'
         place = '{"crs": "EPSG:25832", "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, %s, 5428000250, 110000, 1]}'
         importer.write_text(importer.read_text(encoding='utf-8').replace(

@@ -43,10 +43,10 @@ class Interrupt(Scenario):
                     self.assertIsNone(process.poll(), 'the run is too short to be interrupted')
                     before = time.monotonic()
                     process.send_signal(getattr(signal, name))
-                    _, told = process.communicate(timeout=60)
+                    _, reported = process.communicate(timeout=60)
                     took = time.monotonic() - before
-                    self.assertEqual(process.returncode, 130, told)
-                    self.assertIn('cancelled', told)
+                    self.assertEqual(process.returncode, 130, reported)
+                    self.assertIn('cancelled', reported)
                     self.assertEqual(self.files(), [])
                     # The promise is 100 ms; a machine with other work on it gets some grace.
                     self.assertLess(took, 2.0)
@@ -81,9 +81,9 @@ class Interrupt(Scenario):
         process = self.start(stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         time.sleep(1.6)
         process.send_signal(signal.SIGINT)
-        out, told = process.communicate(timeout=60)
+        out, reported = process.communicate(timeout=60)
         self.assertEqual(out, '')
-        self.assertNotIn('\r', told)
+        self.assertNotIn('\r', reported)
 
 
 if __name__ == '__main__':

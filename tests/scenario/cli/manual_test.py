@@ -39,13 +39,13 @@ class Manual(Scenario):
             return found
         self.assertEqual(sorted(verbs([])), sorted(VERBS))
 
-    def test_a_page_and_help_tell_one_command_line(self):
+    def test_a_page_and_help_report_one_command_line(self):
         for verb in VERBS:
             with self.subTest(verb=verb):
-                told = re.search('^Usage: (.*)$', self.text(*verb, '--help'), re.MULTILINE)[1]
+                reported = re.search('^Usage: (.*)$', self.text(*verb, '--help'), re.MULTILINE)[1]
                 page = self.text('man', *verb).split('.SH SYNOPSIS\n')[1].split('\n')[0]
                 self.assertEqual(page.replace('\\fB', '').replace('\\fR', '').replace('\\-', '-'),
-                                 told.replace('SUBCOMMAND', 'VERB'))
+                                 reported.replace('SUBCOMMAND', 'VERB'))
 
     def test_characters_that_shells_know_stay_what_they_are(self):
         """troff makes typography of some, which cannot be pasted."""

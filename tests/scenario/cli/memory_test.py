@@ -9,7 +9,7 @@ MIB = 1 << 20
 
 
 class Memory(Scenario):
-    TOLD = 'strake: error: out of memory (use a machine with more memory, or a part of the model)\n'
+    REPORTED = 'strake: error: out of memory (use a machine with more memory, or a part of the model)\n'
 
     def run_within(self, size, *arguments):
         return self.run_strake(*arguments,
@@ -45,11 +45,11 @@ class Memory(Scenario):
                 if codes[-3:] == [0, 0, 0]:
                     break
                 continue
-            self.assertEqual((done.returncode, done.stderr), (6, self.TOLD), (arguments, more))
+            self.assertEqual((done.returncode, done.stderr), (6, self.REPORTED), (arguments, more))
             self.assertEqual(self.files(), self.before)
         return codes
 
-    def test_it_is_told_in_one_way_and_leaves_nothing(self):
+    def test_it_is_reported_in_one_way_and_leaves_nothing(self):
         for output, arguments in (('x.json', ['clash', 'ship.glb']), ('x.csv', ['clash', 'ship.glb']),
                                   ('x.json', ['clash', 'diff', 'old.json', 'old.json']),
                                   ('x.svg', ['draw', 'ship.glb']),

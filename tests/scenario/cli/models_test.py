@@ -19,13 +19,13 @@ class Info(Scenario):
         self.two_files()
         done = self.run_strake('info', 'a.obj', 'b.obj', '--unit', 'mm', '--up-axis', 'z', '--json')
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = json.loads(done.stdout)
-        self.assertEqual([file['objects'] for file in told['files']], [2, 1])
-        self.assertEqual(told['total']['objects'], 3)
-        self.assertEqual(told['total']['triangles'], 36)
-        self.assertEqual(told['total']['solids'], 3)
-        self.assertEqual(told['total']['extents_mm'], {'lo': [-110, 0, 0], 'hi': [150, 150, 150]})
-        self.assertEqual(told['skipped'], 0)
+        reported = json.loads(done.stdout)
+        self.assertEqual([file['objects'] for file in reported['files']], [2, 1])
+        self.assertEqual(reported['total']['objects'], 3)
+        self.assertEqual(reported['total']['triangles'], 36)
+        self.assertEqual(reported['total']['solids'], 3)
+        self.assertEqual(reported['total']['extents_mm'], {'lo': [-110, 0, 0], 'hi': [150, 150, 150]})
+        self.assertEqual(reported['skipped'], 0)
         self.assertIn('a.obj: OBJ', done.stderr)
         quiet = self.run_strake('info', 'a.obj', '--quiet')
         self.assertEqual((quiet.returncode, quiet.stderr), (0, ''))
@@ -72,7 +72,7 @@ class Info(Scenario):
         self.assertRegex(plain, r"\n  @discipline +300 +\d+  '[A-Z-]+', '[A-Z-]+', '[A-Z-]+', …\n")
         self.assertNotIn('attributes', self.text('info', 'ship.glb', '--json'))
 
-    def test_stats_say_where_the_time_went(self):
+    def test_stats_state_where_the_time_went(self):
         self.two_files()
         done = self.run_strake('info', 'a.obj', '--stats', '--quiet', '--json')
         self.assertEqual(done.returncode, 0)
@@ -82,7 +82,7 @@ class Info(Scenario):
         plain = self.run_strake('info', 'a.obj', '--stats')
         self.assertIn('peak memory', plain.stderr)
 
-    def test_strict_tells_a_partial_result_by_its_exit_code(self):
+    def test_strict_reports_a_partial_result_by_its_exit_code(self):
         self.write('bad.obj', cube('good', 0, (0, 0, 0), 1) + 'o bad\nv nan 0 0\nf 9 9 9\n')
         self.assertEqual(self.run_strake('info', 'bad.obj').returncode, 0)
         strict = self.run_strake('info', 'bad.obj', '--strict', '--json')

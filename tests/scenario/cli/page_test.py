@@ -76,9 +76,9 @@ class Rebuilt:
     def decision(self, row):
         if row.get('status', 255) == 255:
             return {}
-        said = {name: self.texts[row[column]] or None
+        stated = {name: self.texts[row[column]] or None
                 for name, column in (('by', 'decided_by'), ('date', 'decided_on'), ('comment', 'comment'))}
-        return {'decision': without_none({'status': STATUSES[row['status']], **said, 'reopened': REOPENED[row['reopened']]})}
+        return {'decision': without_none({'status': STATUSES[row['status']], **stated, 'reopened': REOPENED[row['reopened']]})}
 
     def result(self, number, row):
         counted = row.get('region_count', 0)
@@ -345,9 +345,9 @@ class ProjectPage(PageScenario):
         self.run_ok('clash', 'set', '-p', 'p.strake', hit['key'], '--status', 'reviewed', '--comment', 'seen <b>',
                     '--by', 'Ann', '--assignee', 'Bob')
         self.run_ok('report', '-p', 'p.strake', '-o', 'report.html')
-        told = self.page('report.html')
-        rows = {row['key']: row for row in told.rows('strake-results')}
-        texts = told.columns['strake-results']['texts']
+        reported = self.page('report.html')
+        rows = {row['key']: row for row in reported.rows('strake-results')}
+        texts = reported.columns['strake-results']['texts']
         decided = rows[hit['key']]
         self.assertEqual((STATUSES[decided['status']], texts[decided['decided_by']], texts[decided['comment']],
                           texts[decided['assignee']]), ('reviewed', 'Ann', 'seen <b>', 'Bob'))
@@ -355,14 +355,14 @@ class ProjectPage(PageScenario):
         for key, row in rows.items():
             if key != hit['key']:
                 self.assertEqual(STATUSES[row['status']], statuses[key])
-        self.assertEqual([point['run'] for point in told.head['trend']], [1, 2])
-        self.assertEqual(told.head['trend'][1]['hit'], document['tests'][0]['counts']['HIT'])
-        self.assertEqual([drawing['title'] for drawing in told.head['drawings']], ['from above'])
-        self.assertEqual(told.head['scene'], page.head['scene'])
-        for members in (told.head['clash'], page.head['clash']):
+        self.assertEqual([point['run'] for point in reported.head['trend']], [1, 2])
+        self.assertEqual(reported.head['trend'][1]['hit'], document['tests'][0]['counts']['HIT'])
+        self.assertEqual([drawing['title'] for drawing in reported.head['drawings']], ['from above'])
+        self.assertEqual(reported.head['scene'], page.head['scene'])
+        for members in (reported.head['clash'], page.head['clash']):
             del members['decisions']
-        self.assertEqual(told.head['clash'], page.head['clash'])
-        before = told.columns['strake-results'], page.columns['strake-results']
+        self.assertEqual(reported.head['clash'], page.head['clash'])
+        before = reported.columns['strake-results'], page.columns['strake-results']
         for name in ('d', 'd_low', 'd_high', 'x', 'y', 'z', 'p_x', 'q_z', 'group', 'key'):
             self.assertEqual(before[0][name], before[1][name])
 

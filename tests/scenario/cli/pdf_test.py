@@ -327,7 +327,7 @@ class Pdf(Scenario):
         for shown in ('=1+1', '</script>', '船', 'endstream'):
             self.assertIn(shown, words)
 
-    def test_what_a_template_has_beyond_lines_and_texts_is_told(self):
+    def test_what_a_template_has_beyond_lines_and_texts_is_reported(self):
         self.write('m.obj', cube('a', 0, (0, 0, 0), 1000))
         self.write('t.svg', '<svg width="210mm" height="297mm" viewBox="0 0 210 297"><image href="data:image/png;base64,AA=="/>'
                             '<rect width="9" height="9" fill="url(#g)"/><text>{{title}}</text></svg>')

@@ -48,7 +48,7 @@ class Profiles(Scenario):
                          {'joints of branches', 'parts of one equipment, structure or branch'})
         self.assertEqual((report['rules']['file'], report['rules']['profile']), ('plant.toml', 'plant'))
 
-    def test_the_rules_as_a_file_say_the_same(self):
+    def test_the_rules_as_a_file_state_the_same(self):
         self.write('pump.gltf', gltf(PUMP))
         self.write('own.toml', self.text('rules', 'show', 'plant'))
         own, profile = (self.report('pump.gltf', *rules) for rules in (['--rules', 'own.toml'], ['--profile', 'plant']))
@@ -68,11 +68,11 @@ class Profiles(Scenario):
                                  ('/D', (0, 90, 0), 'INSU')])
         self.assertEqual(self.report('m.rvm')['results'], [])
         report = self.report('m.rvm', '--profile', 'plant')
-        told = {(r['a']['name'], r['b']['name']): (r['class'], r['a']['level'], r['b']['level'])
+        reported = {(r['a']['name'], r['b']['name']): (r['class'], r['a']['level'], r['b']['level'])
                 for r in report['results']}
-        self.assertEqual(told[('/A', '/B')], ('HIT', 'hard', 'soft'))
-        self.assertEqual(told[('/A', '/D')], ('HIT', 'hard', 'insulation'))
-        self.assertNotIn(('/B', '/C'), told)
+        self.assertEqual(reported[('/A', '/B')], ('HIT', 'hard', 'soft'))
+        self.assertEqual(reported[('/A', '/D')], ('HIT', 'hard', 'insulation'))
+        self.assertNotIn(('/B', '/C'), reported)
         line = self.text('clash', 'm.rvm', '--profile', 'plant').splitlines()[-1]
         self.assertIn('1 pair (soft against soft)', line)
         self.assertIn('; with space kept free: ', line)
@@ -108,12 +108,12 @@ class Profiles(Scenario):
 
     def test_what_does_not_go_together(self):
         self.write('r.toml', '')
-        for arguments, said in ((['--profile', 'plant', '--rules', 'r.toml'], 'excludes'),
+        for arguments, stated in ((['--profile', 'plant', '--rules', 'r.toml'], 'excludes'),
                                 (['--profile', 'plnat'], 'plant'), (['--list-exempted'], '--profile'),
                                 (['--profile', 'none', '--list-exempted'], '--profile')):
             done = self.run_strake('clash', 'missing.rvm', *arguments)
             self.assertEqual(done.returncode, 2, arguments)
-            self.assertIn(said, done.stderr)
+            self.assertIn(stated, done.stderr)
         for arguments in (['rules'], ['rules', 'show'], ['rules', 'show', 'plnat']):
             self.assertEqual(self.run_strake(*arguments).returncode, 2, arguments)
 
@@ -132,8 +132,8 @@ class Profiles(Scenario):
         self.assertIn('HIT', planted.values())
         for profile in PROFILES:
             report = self.report('ship.glb', '--profile', profile, '--clearance', '25mm')
-            told = {(r['a']['name'], r['b']['name']): r['class'] for r in report['results'] if 'allowed' not in r}
-            lost = {pair: cls for pair, cls in planted.items() if told.get(pair) != cls}
+            reported = {(r['a']['name'], r['b']['name']): r['class'] for r in report['results'] if 'allowed' not in r}
+            lost = {pair: cls for pair, cls in planted.items() if reported.get(pair) != cls}
             self.assertEqual(lost, {}, profile)
             test, = report['tests']
             self.assertEqual(sum(rule['pairs'] for rule in test['exempted']), 0, profile)

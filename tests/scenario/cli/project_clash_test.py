@@ -67,17 +67,17 @@ class ProjectClash(RowProject):
         self.assertEqual([run['hit'] for run in runs], [3, 3, 3, 3, 0, 3])
 
     def test_the_result_is_that_of_the_files(self):
-        told = json.loads(self.clash('--json').stdout)
+        reported = json.loads(self.clash('--json').stdout)
         self.change([(1.5, 0, 0), *ROW[1:]])
-        told = json.loads(self.clash('--json').stdout)
+        reported = json.loads(self.clash('--json').stdout)
         plain = json.loads(self.done('clash', 'row.obj', '--unit', 'mm', '--json').stdout)
-        self.assertEqual(told['hash'], plain['hash'])
-        for result in told['results']:
+        self.assertEqual(reported['hash'], plain['hash'])
+        for result in reported['results']:
             result.pop('decision', None)
-        self.assertEqual(told['results'], plain['results'])
-        self.assertEqual(told['tests'], plain['tests'])
+        self.assertEqual(reported['results'], plain['results'])
+        self.assertEqual(reported['tests'], plain['tests'])
 
-    def test_changes_are_followed_where_no_regions_are_asked_for(self):
+    def test_changes_are_followed_where_no_regions_are_requested(self):
         self.clash('--regions', '0')
         self.change([(-500, 0, 0), *ROW[1:]])
         self.assertIn('the same as by a full test', self.clash('--regions', '0', '--verify').stderr)
@@ -99,9 +99,9 @@ class ProjectClash(RowProject):
         self.write('early.obj', cubes(ROW) + cube('a0', len(ROW), (-80, 0, 0), 100))
         self.done('project', 'update', 'ship.strake', 'early.obj', '--match-files', 'row.obj=early.obj')
         self.clash('--self', '--verify')
-        told = json.loads(self.clash('--self', '--json').stdout)
+        reported = json.loads(self.clash('--self', '--json').stdout)
         plain = json.loads(self.done('clash', 'early.obj', '--self', '--unit', 'mm', '--json').stdout)
-        self.assertEqual(told['hash'], plain['hash'])
+        self.assertEqual(reported['hash'], plain['hash'])
 
     def test_a_group_is_decided_about_at_once(self):
         self.clash('--group-by', 'element')
@@ -122,7 +122,7 @@ class ProjectClash(RowProject):
         self.set('--group', '2', *options, '--status', 'reviewed', exit_code=2)
         self.set(reviewed[0]['key'], '--class', 'hit', '--status', 'active', exit_code=2)
 
-    def test_what_was_said_is_taken_back(self):
+    def test_what_was_stated_is_taken_back(self):
         self.clash()
         key = self.listed()[0]['key']
         self.set(key, '--comment', 'soon', '--assignee', 'Bob')
@@ -130,7 +130,7 @@ class ProjectClash(RowProject):
         clash = self.listed()[0]
         self.assertEqual((clash['comment'], clash['assignee']), (None, None))
 
-    def test_the_table_shows_tests_and_what_cannot_be_told(self):
+    def test_the_table_shows_tests_and_what_cannot_be_decided(self):
         self.clash()
         table = self.done('clash', 'list', '-p', 'ship.strake').stdout
         self.assertNotRegex(table.splitlines()[0], 'test|cannot_tell')
@@ -145,7 +145,7 @@ class ProjectClash(RowProject):
         self.assertIn("there are '', 'all'", done.stderr)
         self.assertEqual({clash['test'] for clash in self.listed('--test', '')}, {''})
 
-    def test_what_cannot_be_told_stays_so(self):
+    def test_what_cannot_be_decided_stays_so(self):
         self.change([(0, 0, 0), (120, 0, 0)])
         self.clash('--clearance', '25mm')
         for _ in range(3):
@@ -164,7 +164,7 @@ class ProjectClash(RowProject):
         done = self.done('clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv')
         self.assertIn('2 hits, 0 contacts, 0 clearance violations, 1 approved', done.stdout)
 
-    def test_a_run_that_cannot_be_told_is_not_remembered(self):
+    def test_a_run_that_cannot_be_decided_is_not_remembered(self):
         (self.folder / 'full').mkdir()
         self.done('clash', '-p', 'ship.strake', '-o', 'full', exit_code=2)
         self.assertEqual(self.listed(), [])
@@ -187,20 +187,20 @@ class ProjectClash(RowProject):
             except sqlite3.OperationalError:
                 pass  # it writes already
             run.send_signal(signal.SIGCONT)
-            told = run.stderr.read()
-        return run.returncode, told
+            reported = run.stderr.read()
+        return run.returncode, reported
 
     def test_a_model_that_changed_meanwhile_is_not_remembered(self):
         self.change([(n % 100 * 200, n // 100 * 200, 0) for n in range(5000)])
         with self.other_writer() as other:
             seal, = other.execute('SELECT files FROM model_seal').fetchone()
             for runs in range(20):
-                exit_code, told = self.changed_meanwhile(other, bytes(16))
+                exit_code, reported = self.changed_meanwhile(other, bytes(16))
                 if exit_code != 0:
                     break
                 other.execute('UPDATE model_seal SET files = ?', (seal,))
-            self.assertEqual(exit_code, 3, told)
-            self.assertIn('changed meanwhile', told)
+            self.assertEqual(exit_code, 3, reported)
+            self.assertIn('changed meanwhile', reported)
             self.assertEqual(other.execute('SELECT count(*) FROM run').fetchone(), (runs,))
 
     def test_who_pages_through_the_result_keeps_nobody_from_writing(self):

@@ -16,9 +16,9 @@ SCHEMAS = None
 
 
 class Projects(RowProject):
-    def refused(self, said, *arguments):
+    def refused(self, stated, *arguments):
         done = self.done(*arguments, exit_code=2)
-        self.assertIn(said, done.stderr)
+        self.assertIn(stated, done.stderr)
 
     def night(self, places=None, *options):
         if places is not None:
@@ -30,34 +30,34 @@ class Projects(RowProject):
         return [clash['key'] for clash in self.listed()]
 
     def diff(self, *arguments, verb='clash'):
-        told = json.loads(self.done(verb, 'diff', *arguments, '--json').stdout)
+        reported = json.loads(self.done(verb, 'diff', *arguments, '--json').stdout)
         schema = json.loads((SCHEMAS / f'{"clash" if verb == "clash" else "view"}-diff.schema.json').read_text())
-        jsonschema.validate(told, schema)
-        return told
+        jsonschema.validate(reported, schema)
+        return reported
 
-    def pairs(self, told, which):
-        return {f'{entry["a"]["name"]} {entry["b"]["name"]}' for entry in told[which]}
+    def pairs(self, reported, which):
+        return {f'{entry["a"]["name"]} {entry["b"]["name"]}' for entry in reported[which]}
 
 
 class Runs(Projects):
-    def test_the_last_two_runs_are_compared_by_what_they_said(self):
+    def test_the_last_two_runs_are_compared_by_what_they_stated(self):
         self.night()
         # The first got deeper, the second parted, of the third an object is missing; two are new.
         self.night([(5, 0, 0), (80, 0, 0), (500, 0, 0), None, (0, 50, 0)])
-        told = self.diff('ship.strake')
-        self.assertEqual(told['counts'], {'new': 2, 'changed': 1, 'same': 0, 'gone': 1, 'cannot_tell': 1})
-        self.assertEqual(self.pairs(told, 'changed'), {'c0 c1'})
-        self.assertEqual((told['changed'][0]['d_mm'], told['changed'][0]['was']['d_mm']), (-25, -20))
-        self.assertEqual(self.pairs(told, 'gone'), {'c1 c2'})
-        self.assertEqual(self.pairs(told, 'cannot_tell'), {'c2 c3'})
-        self.assertEqual(told['cannot_tell'][0]['why'], "'c3' is not in the model")
-        self.assertEqual(self.pairs(told, 'added'), {'c0 c4', 'c1 c4'})
-        self.assertEqual((told['old']['file'], told['new']['file']), ('ship.strake, run 1', 'ship.strake, run 2'))
+        reported = self.diff('ship.strake')
+        self.assertEqual(reported['counts'], {'new': 2, 'changed': 1, 'same': 0, 'gone': 1, 'cannot_tell': 1})
+        self.assertEqual(self.pairs(reported, 'changed'), {'c0 c1'})
+        self.assertEqual((reported['changed'][0]['d_mm'], reported['changed'][0]['was']['d_mm']), (-25, -20))
+        self.assertEqual(self.pairs(reported, 'gone'), {'c1 c2'})
+        self.assertEqual(self.pairs(reported, 'cannot_tell'), {'c2 c3'})
+        self.assertEqual(reported['cannot_tell'][0]['why'], "'c3' is not in the model")
+        self.assertEqual(self.pairs(reported, 'added'), {'c0 c4', 'c1 c4'})
+        self.assertEqual((reported['old']['file'], reported['new']['file']), ('ship.strake, run 1', 'ship.strake, run 2'))
         # It tells what the run told.
         trend, = [run for run in json.loads(self.done('clash', 'history', '-p', 'ship.strake', '--json').stdout)['runs']
                   if run['run'] == 2]
         self.assertEqual((trend['appeared'], trend['gone'], trend['cannot_tell']), (2, 1, 1))
-        self.assertEqual(self.diff('-p', 'ship.strake'), told)
+        self.assertEqual(self.diff('-p', 'ship.strake'), reported)
         self.done('clash', 'diff', 'ship.strake', '--fail-on', 'new-hit', exit_code=1)
         self.assertIn('2 new, 1 changed, 0 unchanged, 1 gone, 1 cannot tell', self.done('clash', 'diff', 'ship.strake').stdout)
 
@@ -73,12 +73,12 @@ class Runs(Projects):
         self.assertEqual(self.diff('ship.strake', '--runs', '3', '4')['counts'],
                          {'new': 2, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 0})
         self.assertEqual(self.diff('ship.strake', '--runs', '1', '4')['counts']['same'], 3)
-        told = self.diff('ship.strake', '--runs', '1', '5')
-        self.assertEqual([(e['d_mm'], e['was']['d_mm']) for e in told['changed']], [(-22, -20)])
+        reported = self.diff('ship.strake', '--runs', '1', '5')
+        self.assertEqual([(e['d_mm'], e['was']['d_mm']) for e in reported['changed']], [(-22, -20)])
         self.refused('there is no run 9', 'clash', 'diff', 'ship.strake', '--runs', '1', '9')
         self.refused('the earlier run comes first', 'clash', 'diff', 'ship.strake', '--runs', '4', '3')
 
-    def test_it_is_what_the_files_of_the_runs_say(self):
+    def test_it_is_what_the_files_of_the_runs_state(self):
         """Whatever happens: of the same two results the comparison of files tells the same, but for the words of reasons."""
         nights = [ROW, [(5, 0, 0), (80, 0, 0), (500, 0, 0), None, (0, 50, 0)], [*ROW[:3], (240, 5, 0), (100, 70, 0)],
                   [None, *ROW[1:]], ROW]
@@ -95,19 +95,19 @@ class Runs(Projects):
                     self.assertEqual(runs['old']['hash'], files['old']['hash'])
                     self.assertEqual(runs['new']['hash'], files['new']['hash'])
 
-    def test_what_a_rule_came_to_allow_is_gone_and_says_so(self):
+    def test_what_a_rule_came_to_allow_is_gone_and_reports_it(self):
         self.write('r.toml', '[[test]]\nname = "all"\n')
         self.night(None, '--rules', 'r.toml')
         self.write('r.toml', '[[test]]\nname = "all"\n[[allowed]]\nname = "first"\na = "c0"\nb = "c1"\nmax_depth = "30mm"\n')
         self.night(None, '--rules', 'r.toml')
-        told = self.diff('ship.strake')
-        self.assertEqual([(e['a']['name'], e['why']) for e in told['gone']], [('c0', "allowed by rule 'first'")])
+        reported = self.diff('ship.strake')
+        self.assertEqual([(e['a']['name'], e['why']) for e in reported['gone']], [('c0', "allowed by rule 'first'")])
         self.assertIn('rules file r.toml is not what it was', self.done('clash', 'diff', 'ship.strake').stdout)
         self.write('r.toml', '[[test]]\nname = "all"\nclearance = "25mm"\n')
         self.night(None, '--rules', 'r.toml')
-        told = self.diff('ship.strake')
-        self.assertEqual([(e['a']['name'], e['why']) for e in told['added']], [('c0', "allowed by rule 'first'")])
-        self.assertEqual([change['test'] for change in told['settings_changed']], ['all'])
+        reported = self.diff('ship.strake')
+        self.assertEqual([(e['a']['name'], e['why']) for e in reported['added']], [('c0', "allowed by rule 'first'")])
+        self.assertEqual([change['test'] for change in reported['settings_changed']], ['all'])
 
     def test_what_has_no_rows_is_compared_by_its_number(self):
         """Contacts that are only counted, and results that a rule allows all along."""
@@ -126,16 +126,16 @@ class Runs(Projects):
         self.night([(5, 0, 0), *ROW[1:]], '--clearance', '5mm')
         self.refused('no two runs of the same test', 'clash', 'diff', 'ship.strake')
         self.night(None, '--rules', 'two.toml')
-        told = self.diff('ship.strake')
-        self.assertEqual((told['old']['file'], told['new']['file']), ('ship.strake, run 1', 'ship.strake, run 3'))
-        self.assertEqual({entry['test'] for entry in told['changed']}, {'one', 'two'})
-        told = self.diff('ship.strake', '--test', 'two')
-        self.assertEqual([entry['test'] for entry in told['changed']], ['two'])
+        reported = self.diff('ship.strake')
+        self.assertEqual((reported['old']['file'], reported['new']['file']), ('ship.strake, run 1', 'ship.strake, run 3'))
+        self.assertEqual({entry['test'] for entry in reported['changed']}, {'one', 'two'})
+        reported = self.diff('ship.strake', '--test', 'two')
+        self.assertEqual([entry['test'] for entry in reported['changed']], ['two'])
         self.refused("there are 'one', 'two', ''", 'clash', 'diff', 'ship.strake', '--test', 'three')
         self.refused("run 2 did not run test 'two'", 'clash', 'diff', 'ship.strake', '--test', 'two', '--runs', '2', '3')
         self.assertEqual(self.diff('ship.strake', '--runs', '1', '2')['tests_gone'], ['one', 'two'])
 
-    def test_results_of_a_test_that_came_or_went_are_told(self):
+    def test_results_of_a_test_that_came_or_went_are_reported(self):
         for name, tests in (('one.toml', ['one']), ('two.toml', ['one', 'two'])):
             self.write(name, ''.join(f'[[test]]\nname = "{test}"\n' for test in tests))
         for rules in ('one.toml', 'two.toml', 'one.toml'):
@@ -165,9 +165,9 @@ class LastRuns(Projects):
         self.night([(5, 0, 0), *ROW[1:]], '-o', 'tuesday.json')
         files = self.diff('monday.json', 'tuesday.json')
         for arguments in (['monday.json', 'ship.strake'], ['monday.json', '-p', 'ship.strake']):
-            told = self.diff(*arguments)
-            self.assertEqual(told['new'].pop('file'), 'ship.strake')
-            self.assertEqual(told, {**files, 'new': {k: v for k, v in files['new'].items() if k != 'file'}})
+            reported = self.diff(*arguments)
+            self.assertEqual(reported['new'].pop('file'), 'ship.strake')
+            self.assertEqual(reported, {**files, 'new': {k: v for k, v in files['new'].items() if k != 'file'}})
         # What became of the model since the run does not matter.
         self.write('row.obj', cubes([(700, 0, 0), None, (900, 0, 0)]))
         self.done('project', 'update', 'ship.strake')
@@ -176,16 +176,16 @@ class LastRuns(Projects):
         self.write('late.obj', cubes([(0, 0, 0), (80, 0, 0), None, (240, 0, 0)]))
         self.done('project', 'new', 'late.strake', 'late.obj', '--unit', 'mm')
         self.done('clash', '-p', 'late.strake')
-        told = self.diff('ship.strake', 'late.strake', '--match-files', 'row.obj=late.obj')
-        self.assertEqual(told['counts'], {'new': 0, 'changed': 1, 'same': 0, 'gone': 0, 'cannot_tell': 2})
+        reported = self.diff('ship.strake', 'late.strake', '--match-files', 'row.obj=late.obj')
+        self.assertEqual(reported['counts'], {'new': 0, 'changed': 1, 'same': 0, 'gone': 0, 'cannot_tell': 2})
 
     def test_a_file_that_was_renamed_is_called_as_today(self):
         self.night(None, '-o', 'monday.json')
         (self.folder / 'row.obj').rename(self.folder / 'row_revB.obj')
         self.done('project', 'update', 'ship.strake', 'row_revB.obj', '--match-files', 'row.obj=row_revB.obj')
-        told = self.diff('monday.json', 'ship.strake')
-        self.assertEqual(told['counts']['same'], 3)
-        self.assertEqual({entry['a']['file'] for entry in told['same']}, {'row_revB.obj'})
+        reported = self.diff('monday.json', 'ship.strake')
+        self.assertEqual(reported['counts']['same'], 3)
+        self.assertEqual({entry['a']['file'] for entry in reported['same']}, {'row_revB.obj'})
 
     def test_one_test_of_several(self):
         self.write('two.toml', '[[test]]\nname = "one"\n[[test]]\nname = "two"\na = "c0"\nb = "c1"\n')
@@ -216,10 +216,10 @@ class Drawings(Projects):
         self.write('row.obj', cubes(places))
         self.done('project', 'update', 'ship.strake')
 
-    def unnamed(self, told):
+    def unnamed(self, reported):
         for run in ('before', 'after'):
-            told[run].pop('file', None)
-        return told
+            reported[run].pop('file', None)
+        return reported
 
     def test_what_a_change_does_to_a_view(self):
         self.draw('--save', 'deck', '--view', 'top')
@@ -227,20 +227,20 @@ class Drawings(Projects):
         self.diff('ship.strake', '--view', 'deck', verb='draw')
         self.done('draw', 'diff', 'ship.strake', '--view', 'deck', '--fail-on', 'any')
         self.done('draw', '-p', 'ship.strake', '--stored', 'deck', '-o', 'monday.json')
-        # One moves, one comes and one goes: what is gone is told by its name of then.
+        # One moves, one comes and one goes: what is gone is reported by its name of then.
         self.change([(0, 0, 0), (80, 5, 0), (160, 0, 0), None, (400, 0, 0)])
         self.done('draw', 'diff', 'ship.strake', '--view', 'deck', '--fail-on', 'visible', '-o', 'changes.svg', exit_code=1)
         self.assertIn('<svg', (self.folder / 'changes.svg').read_text())
-        told = self.diff('-p', 'ship.strake', '--view', 'deck', verb='draw')
-        self.assertIn('c3', json.dumps(told))
+        reported = self.diff('-p', 'ship.strake', '--view', 'deck', verb='draw')
+        self.assertIn('c3', json.dumps(reported))
         # It stores nothing: it says the same again, and the drawing of today is the one to come.
-        self.assertEqual(self.diff('ship.strake', verb='draw'), told)
+        self.assertEqual(self.diff('ship.strake', verb='draw'), reported)
         self.done('draw', 'row.obj', '--unit', 'mm', '--view', 'top', '-o', 'tuesday.json')
         files = self.diff('monday.json', 'tuesday.json', verb='draw')
-        self.assertEqual(self.unnamed(told), self.unnamed(files))
+        self.assertEqual(self.unnamed(reported), self.unnamed(files))
         self.draw('--stored', 'deck')
-        told = self.diff('monday.json', 'ship.strake', verb='draw')
-        self.assertEqual(self.unnamed(told), self.unnamed(files))
+        reported = self.diff('monday.json', 'ship.strake', verb='draw')
+        self.assertEqual(self.unnamed(reported), self.unnamed(files))
         self.assertNotEqual((self.folder / 'ship.strake').read_bytes(), before)
 
     def test_stored_views_of_two_projects(self):
@@ -286,8 +286,8 @@ class Groups(Projects):
         self.assertEqual(len(set(keys.values())), 3)
         self.set('--group', '1', '--status', 'approved')
         self.assertEqual(self.group_keys('--groups'), keys, 'what is approved since is in its group')
-        told = self.set('--group', '2', '--status', 'reviewed').stderr
-        self.assertIn(f'key {keys[2]}', told)
+        reported = self.set('--group', '2', '--status', 'reviewed').stderr
+        self.assertIn(f'key {keys[2]}', reported)
         self.assertEqual((self.status_of('c1'), self.status_of('c4'), self.status_of('c6')),
                          ({'approved'}, {'reviewed'}, {'new'}))
         # An approval that is taken back is one of a clash that the report had in its group.

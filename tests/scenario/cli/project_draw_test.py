@@ -24,7 +24,7 @@ class ProjectDraw(Scenario):
         self.write('m.obj', hall())
         self.text('project', 'new', 'p.strake', 'm.obj', *WAYS)
 
-    def told(self, *arguments, exit_code=0):
+    def reported(self, *arguments, exit_code=0):
         """What a run in the project says on standard error."""
         done = self.run_strake('draw', '-p', 'p.strake', *arguments)
         self.assertEqual(done.returncode, exit_code, done.stderr)
@@ -42,7 +42,7 @@ class ProjectDraw(Scenario):
         self.text('draw', 'm.obj', *WAYS, *view, '-o', 'f.json', '-o', 'f.svg', '-o', 'f.view')
 
     def save(self, *view):
-        return self.told('--save', 'hall', *view, '-o', 'p.json', '-o', 'p.svg', '-o', 'p.view')
+        return self.reported('--save', 'hall', *view, '-o', 'p.json', '-o', 'p.svg', '-o', 'p.view')
 
     def update(self, moved):
         self.write('m.obj', hall(moved))
@@ -53,16 +53,16 @@ class ProjectDraw(Scenario):
         self.assertRegex(self.save(*VIEW), r"view 'hall': new view: .*edges? of 30 objects solved in ")
         for name in ('json', 'svg', 'view'):
             self.same(f'p.{name}', f'f.{name}')
-        told = self.told('--stored', 'hall', '--stats', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
-        self.assertRegex(told, r"view 'hall': existing view, unchanged: none of 30 objects changed, nothing solved again, "
+        reported = self.reported('--stored', 'hall', '--stats', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
+        self.assertRegex(reported, r"view 'hall': existing view, unchanged: none of 30 objects changed, nothing solved again, "
                          r"\d+ edges kept")
-        self.assertRegex(told, r'no local and no global step; [\d.]+ s to find what changed, [\d.]+ s to read')
-        self.assertIn('signatures', told)
+        self.assertRegex(reported, r'no local and no global step; [\d.]+ s to find what changed, [\d.]+ s to read')
+        self.assertIn('signatures', reported)
         for name in ('json', 'svg', 'view'):
             self.same(f'a.{name}', f'f.{name}')
         # Defined again alike, it is not solved again either.
         self.assertIn('nothing solved again', self.save(*VIEW))
-        self.assertRegex(self.told('--stored', 'hall', '--full'), r'view in full: as asked: .* solved in')
+        self.assertRegex(self.reported('--stored', 'hall', '--full'), r'view in full: as asked: .* solved in')
         self.assertIn('hall', self.text('project', 'list', 'p.strake', 'views'))
 
     def test_what_changed_is_solved(self):
@@ -70,19 +70,19 @@ class ProjectDraw(Scenario):
         for moved in (20, 0, -60):
             self.update(moved)
             self.fresh(*VIEW)
-            told = self.told('--stored', 'hall', '--verify', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
-            self.assertRegex(told, r"view 'hall': (existing view with changes: 1 of 30 objects changed, .* edges? solved again in |"
+            reported = self.reported('--stored', 'hall', '--verify', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
+            self.assertRegex(reported, r"view 'hall': (existing view with changes: 1 of 30 objects changed, .* edges? solved again in |"
                              r'view in full: .* solved in )')
-            self.assertIn('the same lines in full', told)
+            self.assertIn('the same lines in full', reported)
             for name in ('json', 'svg', 'view'):
                 self.same(f'a.{name}', f'f.{name}')
-            self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+            self.assertIn('nothing solved again', self.reported('--stored', 'hall'))
 
     def figures(self, *arguments):
         """The statistics of a run, which are the last line of standard error."""
-        return json.loads(self.told(*arguments, '--stats', '--json').splitlines()[-1])
+        return json.loads(self.reported(*arguments, '--stats', '--json').splitlines()[-1])
 
-    def test_what_it_did_and_what_it_cost_is_told(self):
+    def test_what_it_did_and_what_it_cost_is_reported(self):
         self.fresh(*VIEW)
         self.assertRegex(self.save(*VIEW), r'[\d.]+ s of preparation, [\d.]+ s of the local step for 30 objects, of which '
                                            r'\d+ instances share results, [\d.]+ s of the global step for 30 objects; ')
@@ -110,12 +110,12 @@ class ProjectDraw(Scenario):
             self.save(*view)
             (self.folder / 'm.obj').rename(self.folder / 'b.obj')
             self.text('project', 'update', 'p.strake', 'b.obj', '--match-files', 'm.obj=b.obj')
-            self.assertIn('nothing solved again', self.told('--stored', 'hall', '--verify'))
+            self.assertIn('nothing solved again', self.reported('--stored', 'hall', '--verify'))
             self.write('b.obj', hall(20))
             self.text('project', 'update', 'p.strake')
-            told = self.told('--stored', 'hall', '--verify', '-o', 'a.json')
-            self.assertIn('existing view with changes: 1 of 30 objects changed', told)
-            self.assertIn('the same lines in full', told)
+            reported = self.reported('--stored', 'hall', '--verify', '-o', 'a.json')
+            self.assertIn('existing view with changes: 1 of 30 objects changed', reported)
+            self.assertIn('the same lines in full', reported)
             self.text('draw', 'b.obj', *WAYS, *view, '-o', 'f.json')
             self.same('a.json', 'f.json')
             (self.folder / 'b.obj').rename(self.folder / 'm.obj')
@@ -125,7 +125,7 @@ class ProjectDraw(Scenario):
         self.save(*VIEW)
         (self.folder / 'm.obj').rename(self.folder / 'b.obj')
         self.text('project', 'update', 'p.strake', 'b.obj', '--match-files', 'm.obj=b.obj')
-        self.assertIn('nothing solved again', self.told('--stored', 'hall', '-o', 'a.svg', '-o', 'a.json'))
+        self.assertIn('nothing solved again', self.reported('--stored', 'hall', '-o', 'a.svg', '-o', 'a.json'))
         self.text('draw', 'b.obj', *WAYS, *VIEW, '-o', 'f.svg', '-o', 'f.json')
         self.same('a.svg', 'f.svg')
         self.same('a.json', 'f.json')
@@ -136,7 +136,7 @@ class ProjectDraw(Scenario):
                         ('project', 'check', 'p.strake'), ('draw', 'p.strake', '--view', 'top', '-o', 'a.svg')):
             self.text(*command)
             self.assertEqual([path.name for path in self.folder.glob('*.strake*')], ['p.strake'], command)
-        self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+        self.assertIn('nothing solved again', self.reported('--stored', 'hall'))
 
     def test_another_view_of_the_name_has_its_own_lines(self):
         self.save(*VIEW)
@@ -146,20 +146,20 @@ class ProjectDraw(Scenario):
             self.save(*view)
             self.same('p.json', 'f.json')
             self.same('p.svg', 'f.svg')
-            self.told('--stored', 'hall', '-o', 'a.svg')
+            self.reported('--stored', 'hall', '-o', 'a.svg')
             self.same('a.svg', 'f.svg')
 
     def test_the_sheet_and_ink_may_be_others(self):
         self.save(*VIEW)
         style = ('--scale', '1:20', '--paper', 'A2', '--title', 'Hall "B"', '--hidden', 'all')
-        told = self.told('--stored', 'hall', *style, '-o', 'a.svg', '-o', 'a.json')
-        self.assertIn('nothing solved again', told)
+        reported = self.reported('--stored', 'hall', *style, '-o', 'a.svg', '-o', 'a.json')
+        self.assertIn('nothing solved again', reported)
         self.fresh('--view', 'iso', *style)
         self.same('a.svg', 'f.svg')
         self.same('a.json', 'f.json')
         # What was saved stays as it was.
         self.fresh(*VIEW)
-        self.told('--stored', 'hall', '-o', 'a.svg')
+        self.reported('--stored', 'hall', '-o', 'a.svg')
         self.same('a.svg', 'f.svg')
 
     def test_lines_that_are_damaged_serve_nobody(self):
@@ -167,11 +167,11 @@ class ProjectDraw(Scenario):
         with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
             other.execute("UPDATE drawing SET lines = x'0102'")
             other.commit()
-        told = self.told('--stored', 'hall', '-o', 'a.svg')
-        self.assertIn('all lines are solved anew', told)
+        reported = self.reported('--stored', 'hall', '-o', 'a.svg')
+        self.assertIn('all lines are solved anew', reported)
         self.fresh(*VIEW)
         self.same('a.svg', 'f.svg')
-        self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+        self.assertIn('nothing solved again', self.reported('--stored', 'hall'))
 
     def test_wrong_inputs(self):
         self.save(*VIEW)

@@ -59,11 +59,11 @@ class Edits(Scenario):
     def update(self, renamed):
         """Files under other names are given; others are looked at where they lie."""
         self.yard.write()
-        files, asked = [], []
+        files, requested = [], []
         for old, new in renamed:
             files.append(new)
-            asked += ['--match-files', f'{old}={new}']
-        self.run_ok('project', 'update', 'p.strake', *files, *asked)
+            requested += ['--match-files', f'{old}={new}']
+        self.run_ok('project', 'update', 'p.strake', *files, *requested)
         if files:
             self.run_ok('project', 'update', 'p.strake')
 
@@ -78,10 +78,10 @@ class Edits(Scenario):
             remembered = self.folder / f'{name}_p.json'
             remembered.write_text(without_decisions(remembered.read_text(encoding='utf-8')), encoding='utf-8')
             self.same_bytes(remembered.name, f'{name}.json')
-            plain, told = (self.rows(f'{name}{end}.csv') for end in ('', '_p'))
-            self.assertEqual([{column: now[column] for column in row} for row, now in zip(plain, told)],
+            plain, reported = (self.rows(f'{name}{end}.csv') for end in ('', '_p'))
+            self.assertEqual([{column: now[column] for column in row} for row, now in zip(plain, reported)],
                              plain, self.log)
-            self.assertEqual(len(plain), len(told))
+            self.assertEqual(len(plain), len(reported))
 
     def draw(self, threads):
         """The view is saved again where it is another one, and sometimes where it is not."""
@@ -129,15 +129,15 @@ class Edits(Scenario):
                     self.sequence(1000 * number + threads, threads)
 
 
-class WhatIsTold(Scenario):
+class WhatIsReported(Scenario):
     """Of each kind of edit alone, update tells that kind and that object and nothing else."""
 
     KINDS = ('added', 'removed', 'moved', 'reshaped', 'reattributed', 'renamed')
 
     def changes(self):
         self.text('project', 'update', 'p.strake', '-o', 'changes.json')
-        told = json.loads((self.folder / 'changes.json').read_text(encoding='utf-8'))
-        return {kind: count for kind, count in told['counts'].items() if kind in self.KINDS and count}, told
+        reported = json.loads((self.folder / 'changes.json').read_text(encoding='utf-8'))
+        return {kind: count for kind, count in reported['counts'].items() if kind in self.KINDS and count}, reported
 
     def test_each_kind_alone(self):
         yard = Yard(self.folder, random.Random(5), 6)
@@ -167,9 +167,9 @@ class WhatIsTold(Scenario):
             with self.subTest(kind):
                 edit()
                 yard.write()
-                counts, told = self.changes()
+                counts, reported = self.changes()
                 self.assertEqual(counts, {kind: 1})
-                self.assertEqual([change['id'] for change in told['changes']], [name])
+                self.assertEqual([change['id'] for change in reported['changes']], [name])
                 self.assertEqual(self.changes()[0], {}, 'told once')
         things['OTHER'] = things.pop(name)
         yard.write()

@@ -78,20 +78,20 @@ class Jobs(Killed):
 class Kills(Jobs):
     def test_a_kill_at_any_moment_leaves_the_project_as_before_or_as_after(self):
         self.random = random.Random(8)
-        seen = {'before': 0, 'after': 0, 'killed': 0}
+        found = {'before': 0, 'after': 0, 'killed': 0}
         for moment in range(KILLS):
             name = list(self.jobs)[moment // 2 % len(self.jobs)]
             command, before, after, took = self.jobs[name]
             self.restore(name)
-            seen['killed'] += self.kill(command, moment, took) == -signal.SIGKILL
+            found['killed'] += self.kill(command, moment, took) == -signal.SIGKILL
             state = self.state()
             self.assertIn(state, (before, after), (name, moment))
-            seen['before' if state == before else 'after'] += 1
+            found['before' if state == before else 'after'] += 1
             if state == before:
                 self.text(*command)
                 self.assertEqual(self.state(), after, (name, moment))
-        self.assertGreater(seen['killed'], KILLS // 3)
-        self.assertGreater(seen['before'], KILLS // 6)
+        self.assertGreater(found['killed'], KILLS // 3)
+        self.assertGreater(found['before'], KILLS // 6)
 
 
 class KillsOfNew(Killed):
@@ -211,7 +211,7 @@ class TwoProcesses(ProjectScenario):
             with self.subTest(command), self.writing():
                 self.assertNotIn('not yet', self.text(*command))
 
-    def test_a_second_writer_is_told(self):
+    def test_a_second_writer_is_reported(self):
         self.move_some()
         self.text('project', 'update', 'p.strake')
         for command in self.writers():
@@ -222,7 +222,7 @@ class TwoProcesses(ProjectScenario):
                     self.assertIn('p.strake', done.stderr)
                     self.assertIn('--wait', done.stderr)
 
-    def test_a_second_writer_waits_where_it_is_asked_to(self):
+    def test_a_second_writer_waits_where_it_is_requested_to(self):
         for command in (self.writers()[2], CLASH, DRAW, self.writers()[0]):
             with self.subTest(command), self.writing() as other:
                 ending = threading.Timer(.5, lambda: other.execute('ROLLBACK'))
@@ -239,8 +239,8 @@ class TwoProcesses(ProjectScenario):
         for _ in range(4):
             self.text('clash', 'list', '-p', 'p.strake')
         for process in running:
-            _, told = process.communicate(timeout=200)
-            self.assertEqual(process.returncode, 0, told)
+            _, reported = process.communicate(timeout=200)
+            self.assertEqual(process.returncode, 0, reported)
         self.assertEqual({key for key, in self.query("SELECT key FROM clashes WHERE status = 'approved'")}, set(keys))
         self.text('project', 'check', 'p.strake')
 
@@ -341,7 +341,7 @@ class Damage(ProjectScenario):
         self.assertGreater(refused, KILLS // 6)
 
     def test_other_versions_and_other_databases(self):
-        for pragma, told in (('user_version = 999', 'newer'), ('user_version = 0', ''), ('application_id = 7', '')):
+        for pragma, reported in (('user_version = 999', 'newer'), ('user_version = 0', ''), ('application_id = 7', '')):
             with self.subTest(pragma):
                 self.put(self.content)
                 with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
@@ -350,7 +350,7 @@ class Damage(ProjectScenario):
                     done = self.run_strake(*command)
                     self.assertEqual(done.returncode, 3, (command, done.stderr))
                     self.assertIn('p.strake', done.stderr)
-                    self.assertIn(told, done.stderr)
+                    self.assertIn(reported, done.stderr)
 
     def test_what_other_programs_put_in(self):
         for sql in ('CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM clash; END',
@@ -369,7 +369,7 @@ class Damage(ProjectScenario):
 
     def test_words_that_are_none(self):
         """What no reader of the model or of a test would find, and `clash list` or `draw --stored` would not take."""
-        for sql, told in (("UPDATE clash SET relation = 'SOMEHOW'", 'no class or relation'),
+        for sql, reported in (("UPDATE clash SET relation = 'SOMEHOW'", 'no class or relation'),
                           ("UPDATE clash SET class = 'MISS'", 'no class or relation'),
                           ("UPDATE clash SET decision = 'later'", 'a status that is none'),
                           ("INSERT INTO event (clash, at, who, before, after, comment) "
@@ -385,9 +385,9 @@ class Damage(ProjectScenario):
                     other.commit()
                 done = self.run_strake('project', 'check', 'p.strake')
                 self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertIn(told, done.stdout)
+                self.assertIn(reported, done.stdout)
 
-    def test_every_damaged_view_is_told(self):
+    def test_every_damaged_view_is_reported(self):
         for name in ('deck', 'hull', 'pumps'):
             self.text('draw', '-p', 'p.strake', '--save', name, '--view', 'top', '-o', 'x.svg')
         with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
@@ -428,15 +428,15 @@ class HostileNames(Scenario):
         for name in self.NAMES:
             with self.subTest(name):
                 view = 'view' if name in self.UNSEEN else name
-                told = self.text('draw', '-p', 'p.strake', f'--save={view}', '--view', 'top', '-o', 'x.svg')
-                told += self.text('draw', '-p', 'p.strake', f'--stored={view}', '-o', 'x.svg')
-                told += self.text('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed',
+                reported = self.text('draw', '-p', 'p.strake', f'--save={view}', '--view', 'top', '-o', 'x.svg')
+                reported += self.text('draw', '-p', 'p.strake', f'--stored={view}', '-o', 'x.svg')
+                reported += self.text('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed',
                                   f'--comment={name}', f'--assignee={name}', f'--by={name}')
                 for command in (['clash', 'list', '-p', 'p.strake'], ['project', 'list', 'p.strake'],
                                 ['project', 'list', 'p.strake', 'views'], ['project', 'info', 'p.strake']):
-                    told += self.text(*command)
-                self.assertNotIn('\x1b', told)
-                self.assertNotIn('\u202e', told)
+                    reported += self.text(*command)
+                self.assertNotIn('\x1b', reported)
+                self.assertNotIn('\u202e', reported)
         with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
             self.assertEqual({name for name, in other.execute('SELECT name FROM view')},
                              {'view', *self.NAMES} - {*self.UNSEEN})

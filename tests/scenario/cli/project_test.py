@@ -37,8 +37,8 @@ class Project(Scenario):
 
     def changes(self, *arguments):
         """The changes that an update tells, by id."""
-        told = self.as_json('project', 'update', 'ship.strake', *arguments, schema='project-changes.schema.json')
-        return told, {change['id']: change['kinds'] for change in told['changes']}
+        reported = self.as_json('project', 'update', 'ship.strake', *arguments, schema='project-changes.schema.json')
+        return reported, {change['id']: change['kinds'] for change in reported['changes']}
 
     def test_a_project_is_made_and_found_sound(self):
         self.two_files()
@@ -77,20 +77,20 @@ class Project(Scenario):
         self.assertIn("no file 'c.obj'", message)
         self.assertIn('b.obj', message)
 
-    def test_an_update_tells_what_became_of_objects(self):
+    def test_an_update_reports_what_became_of_objects(self):
         self.write('a.obj', ''.join(cube(f'o{i}', i, (300 * i, 0, 0), 100) for i in range(6)))
         self.made('a.obj')
-        told, kinds = self.changes()
-        self.assertEqual((kinds, told['counts']['unchanged']), ({}, 6))
+        reported, kinds = self.changes()
+        self.assertEqual((kinds, reported['counts']['unchanged']), ({}, 6))
         self.assertEqual(len(self.listed('revisions')), 1)  # nothing happened
         self.write('a.obj', cube('o0', 0, (0, 0, 0), 100) + cube('o1', 1, (310, 0, 0), 100)
                    + cube('o2', 2, (600, 0, 0), 120) + cube('was3', 3, (900, 0, 0), 100)
                    + cube('o4', 4, (1200, 0, 0), 100) + cube('o9', 5, (5000, 0, 0), 100))
-        told, kinds = self.changes('-o', 'changes.csv', '-o', 'changes.json')
+        reported, kinds = self.changes('-o', 'changes.csv', '-o', 'changes.json')
         self.assertEqual(kinds, {'o1': ['moved'], 'o2': ['reshaped'], 'was3': ['renamed'], 'o5': ['removed'],
                                  'o9': ['added']})
-        self.assertEqual(told['counts']['unchanged'], 2)
-        self.assertEqual(json.loads((self.folder / 'changes.json').read_text(encoding='utf-8')), told)
+        self.assertEqual(reported['counts']['unchanged'], 2)
+        self.assertEqual(json.loads((self.folder / 'changes.json').read_text(encoding='utf-8')), reported)
         with open(self.folder / 'changes.csv', encoding='utf-8', newline='') as file:
             self.assertEqual({row['id']: row['change'] for row in csv.DictReader(file)},
                              {name: kind[0] for name, kind in kinds.items()})
@@ -116,23 +116,23 @@ class Project(Scenario):
                 self.assertIn(b'obj-material-library-missing', (self.folder / 'f.json').read_bytes())
                 self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'f.json').read_bytes())
 
-    def test_rules_that_say_otherwise_of_a_file_are_refused(self):
+    def test_rules_that_state_otherwise_of_a_file_are_refused(self):
         self.two_files()
         self.made('a.obj', 'b.obj', '--unit', 'a.obj=m')
         runs = (('clash', '-p', 'ship.strake', '--rules', 'r.toml'), ('clash', 'ship.strake', '--rules', 'r.toml'))
-        for says, read, option in (('unit = "mm"', 'unit m,', '--unit mm'), ('up_axis = "y"', 'z up', '--up-axis y')):
-            self.write('r.toml', f'[[file]]\nname = "a.*"\n{says}\n[[test]]\nname = "all"\n')
+        for line, read, option in (('unit = "mm"', 'unit m,', '--unit mm'), ('up_axis = "y"', 'z up', '--up-axis y')):
+            self.write('r.toml', f'[[file]]\nname = "a.*"\n{line}\n[[test]]\nname = "all"\n')
             for run in runs:
-                told = self.refused(2, *run)
-                self.assertIn("'a.obj'", told)
-                self.assertIn(read, told)
-                self.assertIn(f'strake project update ship.strake {self.folder / "a.obj"} {option}', told)
+                reported = self.refused(2, *run)
+                self.assertIn("'a.obj'", reported)
+                self.assertIn(read, reported)
+                self.assertIn(f'strake project update ship.strake {self.folder / "a.obj"} {option}', reported)
         self.write('r.toml', '[[file]]\nname = "a.*"\nunit = "m"\nup_axis = "z"\n[[file]]\nname = "c.*"\nunit = "in"\n'
                              '[[test]]\nname = "all"\n')
         for run in runs:
-            told = self.run_strake(*run).stderr
-            self.assertNotIn("[[file]] 'a.*'", told)
-            self.assertIn("[[file]] 'c.*': no file of the run has such a name", told)
+            reported = self.run_strake(*run).stderr
+            self.assertNotIn("[[file]] 'a.*'", reported)
+            self.assertIn("[[file]] 'c.*': no file of the run has such a name", reported)
 
     def test_a_renamed_file_takes_the_place_of_what_it_was(self):
         boxes = [(f'/P{i}', (300 * i, 0, 0)) for i in range(8)]
@@ -140,16 +140,16 @@ class Project(Scenario):
         self.write_rvm('HB.RVM', [(f'/Q{i}', (300 * i, 900, 0)) for i in range(8)])
         self.made('HA.RVM', 'HB.RVM')
         self.write_rvm('HA_revB.RVM', [*boxes[:7], ('/P7', (2105, 0, 0))])
-        told, kinds = self.changes('HA_revB.RVM')
+        reported, kinds = self.changes('HA_revB.RVM')
         self.assertEqual(list(kinds.values()), [['moved']])
-        self.assertEqual(told['counts']['unchanged'], 15)
-        self.assertEqual([(match['old'], match['new']) for match in told['files_matched']], [('HA.RVM', 'HA_revB.RVM')])
+        self.assertEqual(reported['counts']['unchanged'], 15)
+        self.assertEqual([(match['old'], match['new']) for match in reported['files_matched']], [('HA.RVM', 'HA_revB.RVM')])
         self.assertEqual([row['label'] for row in self.listed('files')], ['HA_revB.RVM', 'HB.RVM'])
         self.write_rvm('other.rvm', [(f'/Z{i}', (300 * i, 0, 5000)) for i in range(8)])
         message = self.refused(2, 'project', 'update', 'ship.strake', 'other.rvm')
         self.assertIn('is like no file of the project', message)
-        told, kinds = self.changes('other.rvm', '--match-files', 'HB.RVM=other.rvm')
-        self.assertEqual((told['counts']['added'], told['counts']['removed']), (8, 8))
+        reported, kinds = self.changes('other.rvm', '--match-files', 'HB.RVM=other.rvm')
+        self.assertEqual((reported['counts']['added'], reported['counts']['removed']), (8, 8))
 
     def test_after_an_error_the_project_is_as_it_was(self):
         self.two_files()
@@ -166,10 +166,10 @@ class Project(Scenario):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 1))
         self.made('a.obj', '--unit', 'm')
         self.write('a.obj', cube('a0', 0, (1, 0, 0), 1))
-        told, kinds = self.changes()
+        reported, kinds = self.changes()
         self.assertEqual(kinds, {'a0': ['moved']})
         self.assertIn('unit m (given)', self.text('project', 'info', 'ship.strake'))
-        self.assertEqual(told['counts']['moved'], 1)
+        self.assertEqual(reported['counts']['moved'], 1)
 
     def test_results_of_a_project_are_those_of_its_files(self):
         self.text('generate', 'ship', '--objects', 400, '-o', 'ship.glb', '--quiet')
@@ -240,17 +240,17 @@ class Project(Scenario):
         before = (self.folder / 'a.obj').read_bytes()
         (self.folder / 'link.obj').symlink_to('a.obj')
         for name in ('a.obj', str(self.folder / 'a.obj'), 'link.obj'):
-            told = self.refused(2, 'project', 'export', 'ship.strake', '-o', name)
-            self.assertIn('would be overwritten', told)
+            reported = self.refused(2, 'project', 'export', 'ship.strake', '-o', name)
+            self.assertIn('would be overwritten', reported)
         # A model file is known by what it holds: its name may be that of a result.
         (self.folder / 'a.obj').rename(self.folder / 'a.json')
         self.text('project', 'new', 'other.strake', 'a.json', '--quiet')
         for verb in (['clash'], ['draw'], ['draw', '--save', 'top']):
-            told = self.refused(2, *verb, '-p', 'other.strake', '-o', 'a.json')
-            self.assertIn('would be overwritten', told)
+            reported = self.refused(2, *verb, '-p', 'other.strake', '-o', 'a.json')
+            self.assertIn('would be overwritten', reported)
         self.assertEqual((self.folder / 'a.json').read_bytes(), before)
 
-    def test_damage_is_told_with_its_place(self):
+    def test_damage_is_reported_with_its_place(self):
         self.two_files()
         self.made('a.obj', 'b.obj')
         database = sqlite3.connect(self.folder / 'ship.strake')
@@ -265,14 +265,14 @@ class Project(Scenario):
         self.assertEqual(faults['faults'][0]['where'], 'model')
         self.refused(3, 'clash', 'ship.strake')
 
-    def test_results_that_do_not_fit_their_rows_are_told(self):
+    def test_results_that_do_not_fit_their_rows_are_reported(self):
         self.write('a.obj', ''.join(cube(f'o{i}', i, (90 * i, 0, 0), 100) for i in range(4)))
         self.made('a.obj')
         self.run_strake('clash', '-p', 'ship.strake')
         self.text('draw', '-p', 'ship.strake', '--save', 'top', '--view', 'top', '-o', 'top.svg')
         self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
         sound = (self.folder / 'ship.strake').read_bytes()
-        for change, told in (("UPDATE clash SET a_id = 'x' WHERE id = 1", 'has another key than its objects'),
+        for change, reported in (("UPDATE clash SET a_id = 'x' WHERE id = 1", 'has another key than its objects'),
                              ('DELETE FROM clash WHERE id = 2', 'clash 2 has a result, and is not there'),
                              ('UPDATE clash SET (a_file, a_id, b_file, b_id) = (SELECT a_file, a_id, b_file, b_id '
                               'FROM clash WHERE id = 2) WHERE id = 1', 'is of other objects than its result'),
@@ -286,9 +286,9 @@ class Project(Scenario):
                 database.close()
                 done = self.run_strake('project', 'check', 'ship.strake')
                 self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertIn(told, done.stdout)
+                self.assertIn(reported, done.stdout)
 
-    def test_a_second_writer_is_told_or_waits(self):
+    def test_a_second_writer_is_reported_or_waits(self):
         self.two_files()
         self.made('a.obj')
         database = sqlite3.connect(self.folder / 'ship.strake', isolation_level=None)
@@ -300,10 +300,10 @@ class Project(Scenario):
         database.close()
         self.text('project', 'add', 'ship.strake', 'b.obj', '--wait', '5', '--quiet')
 
-    def test_wrong_command_lines_are_told(self):
+    def test_wrong_command_lines_are_reported(self):
         self.two_files()
         self.made('a.obj')
-        for line, said in [('project', 'no verb is given'), ('project renew', "has no verb 'renew'"),
+        for line, stated in [('project', 'no verb is given'), ('project renew', "has no verb 'renew'"),
                            ('project new', 'FILE is not given'), ('project add ship.strake', 'no model file is given'),
                            ('project list ship.strake things', "'things' is not one of"),
                            ('project list ship.strake files --rows many', 'whole number'),
@@ -313,7 +313,7 @@ class Project(Scenario):
                            ('project update ship.strake -o a.txt.json --match-files x', 'OLD=NEW'),
                            ('project remove ship.strake', 'LABEL is not given'),
                            ('project export ship.strake', 'nowhere to export to')]:
-            self.assertIn(said, self.refused(2, *line.split()), line)
+            self.assertIn(stated, self.refused(2, *line.split()), line)
         for line in ('project info a.obj', 'project info nowhere.strake', 'project check a.obj'):
             self.assertIn(line.split()[-1], self.refused(3, *line.split()), line)
 

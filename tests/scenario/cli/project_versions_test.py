@@ -23,7 +23,7 @@ class Versions(Scenario):
         with contextlib.closing(sqlite3.connect(path)) as project:
             return project.execute('PRAGMA user_version').fetchone()[0]
 
-    def test_each_version_opens_and_says_the_same(self):
+    def test_each_version_opens_and_states_the_same(self):
         for stored in sorted(GOLDEN.glob('v*.strake')):
             with self.subTest(stored.name):
                 shutil.copy(stored, self.folder / 'p.strake')

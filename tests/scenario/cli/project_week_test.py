@@ -69,8 +69,8 @@ class Truth:
 
     def counts(self):
         """Of each status: those that the last run found, and all that are resolved."""
-        told = [status for pair, status in self.status.items() if pair not in self.cannot_tell]
-        return {status: told.count(status) for status in ('new', 'active', 'reviewed', 'approved', 'resolved')}
+        reported = [status for pair, status in self.status.items() if pair not in self.cannot_tell]
+        return {status: reported.count(status) for status in ('new', 'active', 'reviewed', 'approved', 'resolved')}
 
 
 class Week(Scenario):
@@ -104,7 +104,7 @@ class Week(Scenario):
 
     def night(self, name, how):
         """A night's run: its bytes are those of the files, and every status and number is the truth's."""
-        told = self.text('clash', '-p', 'ship.strake', *NIGHT, '--verify', '-o', f'{name}.json')
+        reported = self.text('clash', '-p', 'ship.strake', *NIGHT, '--verify', '-o', f'{name}.json')
         self.text('clash', *self.names, *NIGHT, '-o', 'plain.json')
         self.assertEqual(without_decisions((self.folder / f'{name}.json').read_text(encoding='utf-8')),
                          (self.folder / 'plain.json').read_text(encoding='utf-8'))
@@ -118,7 +118,7 @@ class Week(Scenario):
         self.assertEqual(row, (how, len(self.objects()), classes.count('HIT'), classes.count('CONTACT'),
                                classes.count('CLEARANCE_VIOLATION'), appeared, gone, *counts.values(),
                                len(self.truth.cannot_tell)))
-        return told, results, appeared, gone
+        return reported, results, appeared, gone
 
     def check_statuses(self):
         rows = self.query('SELECT a_id, b_id, status, unknown IS NOT NULL FROM clashes')
@@ -305,7 +305,7 @@ class Nightly(Scenario):
         self.assertEqual(len((self.folder / 'report/new.csv').read_text().splitlines()), 1)
         self.assertEqual(len((self.folder / 'report/history.csv').read_text().splitlines()), 3)
 
-    def test_what_goes_wrong_is_told_and_stops_it(self):
+    def test_what_goes_wrong_is_reported_and_stops_it(self):
         shutil.move(self.folder / 'ship.glb', self.folder / 'away.glb')
         done = self.nightly('ship.strake', 'report', 'deck')
         self.assertEqual(done.returncode, 3, done.stderr)

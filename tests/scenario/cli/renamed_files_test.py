@@ -39,7 +39,7 @@ class RenamedFiles(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)
 
-    def told(self, verb, old='old.json', new='new.json', *more):
+    def reported(self, verb, old='old.json', new='new.json', *more):
         return self.text(verb, 'diff', old, new, *more)
 
     def test_a_run_and_its_repetition_under_another_name(self):
@@ -54,7 +54,7 @@ class RenamedFiles(Scenario):
         self.assertNotIn('files_ambiguous', diff)
         keys = {(e['was']['key'], frozenset(ids_of(e))) for e in diff['same']}
         self.assertEqual(keys, {(r['key'], frozenset(ids_of(r))) for r in old}, 'the old key is told')
-        text = self.told('clash')
+        text = self.reported('clash')
         self.assertEqual(text.count('ship.glb'), 1, text)
         self.assertIn(f'files are taken as renamed: ship.glb -> tues.glb ({len(named)} of {len(named)} ids in common)\n',
                       text)
@@ -125,7 +125,7 @@ class RenamedFiles(Scenario):
         self.assertEqual(diff['lines'], [])
         self.assertEqual([(m['old'], m['new'], m['relation']) for m in diff['files_matched']],
                          [('ship.glb', 'tues.glb', 'renamed')])
-        self.assertIn('files are taken as renamed: ship.glb -> tues.glb (', self.told('draw'))
+        self.assertIn('files are taken as renamed: ship.glb -> tues.glb (', self.reported('draw'))
         for path in ('wed.glb', 'later/ship.glb'):
             self.glb().reverse().move(moved, 1).write(self.folder / path)
         self.draw(['wed.glb'], 'new.json')
@@ -152,7 +152,7 @@ class RenamedFiles(Scenario):
         self.assertEqual(diff['counts'], counts(same=len(old)))
         self.assertEqual({(m['old'], m['new']) for m in diff['files_matched']},
                          {(f'part{i}.glb', f'rev{2 - i}.glb') for i in range(3)})
-        self.assertEqual(self.told('clash').count('files are taken as renamed'), 1)
+        self.assertEqual(self.reported('clash').count('files are taken as renamed'), 1)
 
     def test_split_and_merged(self):
         halves = self.parts()
@@ -205,16 +205,16 @@ class RenamedFiles(Scenario):
         self.assertNotIn('files_matched', diff)
         self.assertIn({'run': 'new', 'file': 'p2.obj', 'may_be': ['port.obj', 'starboard.obj']}, diff['files_ambiguous'])
         self.assertIn('p2.obj of the new run is equally like port.obj and starboard.obj and is matched with none '
-                      '(--match-files OLD=NEW says which it is)', self.told('clash'))
+                      '(--match-files OLD=NEW says which it is)', self.reported('clash'))
         # One pair that is given decides the other.
         diff = self.diff('clash', 'old.json', 'new.json', '--match-files', 'port.obj=s2.obj')
         self.assertEqual(diff['counts'], counts(same=len(old)))
         self.assertEqual([(m['old'], m['new'], m['relation']) for m in diff['files_matched']],
                          [('starboard.obj', 'p2.obj', 'renamed'), ('port.obj', 's2.obj', 'asked')])
         self.assertIn('port.obj -> s2.obj (as asked for, 5 of 5 ids in common)',
-                      self.told('clash', 'old.json', 'new.json', '--match-files', 'port.obj=s2.obj'))
+                      self.reported('clash', 'old.json', 'new.json', '--match-files', 'port.obj=s2.obj'))
 
-    def test_what_places_tell(self):
+    def test_what_places_report(self):
         """A second pair of files has the same ids as the first one, 5 m away from it."""
         for name, at in (('port.obj', 0), ('starboard.obj', 5000)):
             cubes = ''.join(cube(f'c{n}', n, (90 * n, at, 0), 100) for n in range(5))
@@ -228,32 +228,32 @@ class RenamedFiles(Scenario):
         self.assertEqual({(m['old'], m['new']) for m in diff['files_matched']},
                          {('port.obj', 'new_port.obj'), ('starboard.obj', 'new_starboard.obj')})
 
-    def test_another_model_is_told(self):
+    def test_another_model_is_reported(self):
         self.clash(['ship.glb'], 'old.json')
         self.write('m.obj', ''.join(cube(f'c{n}', n, (90 * n, 0, 0), 100) for n in range(5)))
         self.clash(['m.obj'], 'new.json', '--unit', 'mm')
         self.assertIn('files without a counterpart: ship.glb in the old run, m.obj in the new one '
-                      '(--match-files OLD=NEW matches them)\n', self.told('clash'))
+                      '(--match-files OLD=NEW matches them)\n', self.reported('clash'))
         diff = self.diff('clash')
         self.assertEqual((diff['counts']['gone'], diff['counts']['same']), (0, 0))
-        asked = self.told('clash', 'old.json', 'new.json', '--match-files', 'ship.glb=m.obj')
-        self.assertRegex(asked, re.escape('ship.glb -> m.obj (as asked for, 0 of ') + r'\d+ ids in common\)')
+        requested = self.reported('clash', 'old.json', 'new.json', '--match-files', 'ship.glb=m.obj')
+        self.assertRegex(requested, re.escape('ship.glb -> m.obj (as asked for, 0 of ') + r'\d+ ids in common\)')
 
     def test_pairs_that_make_no_sense_are_refused(self):
         self.write('m.obj', ''.join(cube(f'c{n}', n, (90 * n, 0, 0), 100) for n in range(5)))
         run = ['m.obj', '--unit', 'mm', '-o']
         for verb, result in (('clash', 'c.json'), ('draw', 'd.json')):
             self.assertEqual(self.run_strake(verb, *run, result).returncode, 0)
-            for pairs, told in ((['m.obj'], "'m.obj' names no two files (write OLD=NEW, as in ship.glb=ship_revB.glb)"),
+            for pairs, reported in ((['m.obj'], "'m.obj' names no two files (write OLD=NEW, as in ship.glb=ship_revB.glb)"),
                                 (['=m.obj'], "'=m.obj' names no two files"),
                                 (['x.obj=m.obj'], "the old run has no file 'x.obj' (it has m.obj)"),
                                 (['m.obj=x.obj'], "the new run has no file 'x.obj' (it has m.obj)"),
                                 (['m.obj=m.obj', 'm.obj=m.obj'], "the file 'm.obj' of the old run is given twice")):
                 with self.subTest(verb + ' '.join(pairs)):
-                    asked = [word for pair in pairs for word in ('--match-files', pair)]
-                    done = self.run_strake(verb, 'diff', result, result, *asked)
+                    requested = [word for pair in pairs for word in ('--match-files', pair)]
+                    done = self.run_strake(verb, 'diff', result, result, *requested)
                     self.assertEqual(done.returncode, 2, done.stdout)
-                    self.assertIn('--match-files: ' + told, done.stderr)
+                    self.assertIn('--match-files: ' + reported, done.stderr)
                     self.assertEqual(done.stdout, '')
             done = self.run_strake(verb, 'diff', result, result, '--match-files', 'm.obj=m.obj')
             self.assertEqual(done.returncode, 0, done.stderr)

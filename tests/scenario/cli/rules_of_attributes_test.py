@@ -26,7 +26,7 @@ class Ruled(Scenario):
     def report(self, *arguments):
         done = self.run_strake('clash', *arguments, '--json')
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.told = done.stderr
+        self.reported = done.stderr
         return json.loads(done.stdout)
 
     def pairs(self, *arguments):
@@ -47,7 +47,7 @@ class Clearance(Ruled):
                 self.write('r.toml', f'[defaults]\nclearance = "{clearance}"\n')
                 self.assertEqual(self.pairs('rack.gltf', '--rules', 'r.toml'), found)
 
-    def test_each_result_says_what_it_lacks(self):
+    def test_each_result_states_what_it_lacks(self):
         report = self.report('rack.gltf', '--clearance', '@INSU + 16mm', '-o', 'x.csv', '--columns', '@INSU')
         self.assertEqual({names(r): (r['clearance_mm'], round(r['d_mm'], 3)) for r in report['results']},
                          {'beam-pipe': (46, 40), 'beam-elbow': (41, 40), 'elbow-twin': (41, 40)})
@@ -64,28 +64,28 @@ class Clearance(Ruled):
         self.assertEqual([{k: v for k, v in r.items() if k != 'clearance_mm'} for r in added['results']],
                          constant['results'])
 
-    def test_what_has_no_length_is_told_in_one_line(self):
+    def test_what_has_no_length_is_reported_in_one_line(self):
         self.write('odd.gltf', gltf(('ODD', {'INSU': 'as of spec 7'}, None, [('a', {}, 0, []), ('b', {}, .14, []),
                                                                            ('c', {'INSU': '50'}, .28, [])])))
         self.assertEqual(self.pairs('odd.gltf', '--clearance', '@INSU'), {'b-c'})
-        lines = [line for line in self.told.splitlines() if 'clearance-not-a-length' in line]
-        self.assertEqual(len(lines), 1, self.told)
+        lines = [line for line in self.reported.splitlines() if 'clearance-not-a-length' in line]
+        self.assertEqual(len(lines), 1, self.reported)
         self.assertIn("the attribute 'INSU' of 2 objects is no length from 0 to 1km and adds nothing to the clearance: "
                       "'as of spec 7' (2)", lines[0])
         self.report('odd.gltf', '--clearance', '@LAGGING')
-        self.assertIn("--clearance: no object has the attribute 'LAGGING'", self.told)
+        self.assertIn("--clearance: no object has the attribute 'LAGGING'", self.reported)
 
     def test_strict_stops_where_a_clearance_lacks_a_length(self):
         self.write('odd.gltf', gltf(('ODD', {}, None, [('a', {'INSU': '50,0'}, 0, []), ('b', {'INSU': '50'}, .14, [])])))
         self.write('r.toml', '[[test]]\nname = "t"\nclearance = "@INSUL"\n')
         why = 'not every clearance is as large as it was asked for: '
-        for arguments, said in (['--clearance', '@INSU'], "the attribute 'INSU' of 1 object is no length"), \
+        for arguments, stated in (['--clearance', '@INSU'], "the attribute 'INSU' of 1 object is no length"), \
                 (['--clearance', '@INSUL'], "no object has the attribute 'INSUL'"), \
                 (['--rules', 'r.toml'], "no object has the attribute 'INSUL'"):
             with self.subTest(arguments=arguments):
                 done = self.run_strake('clash', 'odd.gltf', *arguments, '--quiet', '--strict')
                 self.assertEqual(done.returncode, 4, done.stderr)
-                self.assertIn(f'--strict: {why}{said}', done.stderr)
+                self.assertIn(f'--strict: {why}{stated}', done.stderr)
                 self.assertEqual(self.run_strake('clash', 'odd.gltf', *arguments).returncode, 0)
         self.assertEqual(self.run_strake('clash', 'rack.gltf', '--clearance', '@INSU', '--strict').returncode, 0)
 
@@ -116,7 +116,7 @@ against_insulation = false
                           frozenset((('lagging 2', 'insulation'), ('access', 'soft')))})
         self.assertEqual(report['tests'][0]['exempted'],
                          [{'rule': 'no obstruction', 'pairs': 2}, {'rule': 'insulation against insulation', 'pairs': 1}])
-        self.assertNotIn('rule-', self.told)
+        self.assertNotIn('rule-', self.reported)
 
     def test_a_selection_works_in_files_that_have_no_attributes(self):
         self.write('m.obj', ''.join(cube(name, n, (90 * n, 0, 0), 100) for n, name in enumerate(('pipe', 'INSU-1', 'DOOR'))))
@@ -139,7 +139,7 @@ class Files(Ruled):
         self.write('r.toml', '[[file]]\nname = "m.obj"\nunit = "m"\n')
         run = ['mm.obj', 'm.obj', '--rules', 'r.toml']
         self.assertEqual(self.units(*run), {'mm.obj': 'mm (assumed)', 'm.obj': 'm (given)'})
-        self.assertNotIn('unit-doubtful', self.told)
+        self.assertNotIn('unit-doubtful', self.reported)
         result, = self.report(*run)['results']
         self.assertEqual((result['class'], result['d_mm']), ('HIT', -50))
         plain = self.report('mm.obj', 'm.obj', '--unit', 'm.obj=m')
@@ -160,14 +160,14 @@ class Files(Ruled):
                              '[[file]]\nname = "mm*"\nunit = "in"\n[[file]]\nname = "*.stl"\nunit = "in"\n')
         report = self.report('mm.obj', 'm.obj', '--rules', 'r.toml')
         self.assertEqual({f['label']: f['unit'] for f in report['files']}, {'mm.obj': 'mm (given)', 'm.obj': 'm (given)'})
-        told = [f"{m['code']}: {m['where']}: {m['message']}" for m in report['messages'] if m['code'].startswith('rule-')]
-        self.assertEqual(told, [
+        reported = [f"{m['code']}: {m['where']}: {m['message']}" for m in report['messages'] if m['code'].startswith('rule-')]
+        self.assertEqual(reported, [
             "rule-shadowed: r.toml, line 7: [[file]] 'mm*': earlier [[file]] tables say as much of every file that it is about",
             "rule-matches-nothing: r.toml, line 10: [[file]] '*.stl': no file of the run has such a name"])
-        for line in told:
-            self.assertIn(line, self.told)
+        for line in reported:
+            self.assertIn(line, self.reported)
 
-    def test_folders_tell_files_apart(self):
+    def test_folders_distinguish_files(self):
         for folder in ('hull', 'pipes'):
             (self.folder / folder).mkdir()
             self.write(f'{folder}/x.obj', cube(folder, 0, (0, 0, 0), 1))
@@ -193,17 +193,17 @@ endsolid x
         in_mm['nodes'][1]['scale'] = [1000, 1000, 1000]  # as programs write that forget that glTF is in metres
         self.write('mm.gltf', json.dumps(in_mm))
         self.report('box.rvm', 'm.stl')
-        self.assertIn('unit-doubtful: box.rvm: is about 1000 times as large as m.stl', self.told)
-        self.assertIn("--unit 'm.stl=m'", self.told)
+        self.assertIn('unit-doubtful: box.rvm: is about 1000 times as large as m.stl', self.reported)
+        self.assertIn("--unit 'm.stl=m'", self.reported)
         self.report('m.gltf', 'm.stl')
-        self.assertIn("--unit 'm.stl=m'", self.told)
+        self.assertIn("--unit 'm.stl=m'", self.reported)
         self.report('m.gltf', 'box.rvm')
-        self.assertNotIn('unit-doubtful', self.told)
+        self.assertNotIn('unit-doubtful', self.reported)
         self.report('mm.gltf', 'box.rvm')
-        self.assertIn("unit-doubtful: mm.gltf: is about 1000 times as large as box.rvm", self.told)
-        self.assertIn("--unit 'mm.gltf=mm'", self.told)
+        self.assertIn("unit-doubtful: mm.gltf: is about 1000 times as large as box.rvm", self.reported)
+        self.assertIn("--unit 'mm.gltf=mm'", self.reported)
         self.report('mm.gltf', 'box.rvm', '--unit', 'mm.gltf=mm')
-        self.assertNotIn('unit-doubtful', self.told)
+        self.assertNotIn('unit-doubtful', self.reported)
 
 
 if __name__ == '__main__':

@@ -43,7 +43,7 @@ class Small(Rules):
         result, = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')['results']
         self.assertEqual((result['class'], result['allowed'], result['d_mm']), ('HIT', 'glued', -10))
 
-    def test_a_place_that_a_rule_allows_of_a_pair_that_it_does_not_is_told(self):
+    def test_a_place_that_a_rule_allows_of_a_pair_that_it_does_not_is_reported(self):
         # A bar between two walls of one object, in both of them; the one has a sleeve.
         self.write('m.obj', bar_between_walls())
         self.write('r.toml', '[[allowed]]\nname = "sleeve"\na = "bar"\nb = "walls"\nmax_depth = "any"\n'
@@ -98,10 +98,10 @@ class Small(Rules):
         done = self.run_strake('clash', *run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 1)
         self.assertIn('1 hit, 0 contacts, 0 clearance violations, 1 result not reported by volume\n', done.stdout)
-        told = json.loads(self.run_strake('clash', 'diff', 'all.json', 'some.json', '--json').stdout)
-        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 1})
-        self.assertIn('may be among the 1 results that the test does not report', told['cannot_tell'][0]['why'])
-        self.assertEqual([(s['setting'], s['old']) for s in told['settings_changed']],
+        reported = json.loads(self.run_strake('clash', 'diff', 'all.json', 'some.json', '--json').stdout)
+        self.assertEqual(reported['counts'], {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 1})
+        self.assertIn('may be among the 1 results that the test does not report', reported['cannot_tell'][0]['why'])
+        self.assertEqual([(s['setting'], s['old']) for s in reported['settings_changed']],
                          [('min_volume_mm3', None), ('relations', None)])
         self.write('r.toml', '[[test]]\nname = "t"\nrelations = "inside"\n')
         done = self.run_strake('clash', *run, '--fail-on', 'hit')
@@ -118,7 +118,7 @@ class Small(Rules):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn('leave out --narrow-phase, or these rules', done.stderr)
 
-    def test_exempted_pairs_are_listed_where_asked_for(self):
+    def test_exempted_pairs_are_listed_where_requested(self):
         self.write('m.obj', cubes(0, 90, 180))
         self.write('r.toml', '[[exempt]]\nname = "a pair"\na = "c0"\nb = "c1"\n')
         run = ['m.obj', *self.SETTINGS, '--rules', 'r.toml']
@@ -134,7 +134,7 @@ class Small(Rules):
         self.assertEqual([(row['a_name'], row['b_name'], row['class'], row['exempted_by']) for row in rows],
                          [('c1', 'c2', 'HIT', ''), ('c0', 'c1', 'EXEMPTED', 'a pair')])
 
-    def test_faults_of_a_rules_file_are_told_before_a_model_is_read(self):
+    def test_faults_of_a_rules_file_are_reported_before_a_model_is_read(self):
         self.write('r.toml', '[defaults]\nclearance = 25\n')
         done = self.run_strake('clash', 'missing.obj', '--rules', 'r.toml')
         self.assertEqual(done.returncode, 3)
@@ -144,7 +144,7 @@ class Small(Rules):
         self.assertEqual(done.returncode, 3)
         self.assertIn('none.toml', done.stderr)
 
-    def test_the_command_line_leaves_to_the_file_what_the_file_says(self):
+    def test_the_command_line_leaves_to_the_file_what_the_file_states(self):
         self.write('r.toml', '')
         for option in (['--clearance', '1mm'], ['--touch-gap', '1mm'], ['--touch-overlap', '1mm'],
                        ['--thickness-cap', 'off'], ['--contact-distance', '1mm'], ['--a', 'x'], ['--b', 'x'],
@@ -251,22 +251,22 @@ max_depth = "any"
         self.write('r.toml', '[[exempt]]\nname = "old"\na = "new*"\nb = "ghost*"\n[[test]]\nname = "t"\na = "x"\n')
         done = self.run_strake('clash', 'm.obj', '--rules', 'r.toml', '--json')
         messages = [f"{m['code']}: {m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']]
-        for said in ("rule-matches-nothing: r.toml, line 3: [[exempt]] 'old', a: 'new*' picks no object",
+        for stated in ("rule-matches-nothing: r.toml, line 3: [[exempt]] 'old', a: 'new*' picks no object",
                      "rule-matches-nothing: r.toml, line 4: [[exempt]] 'old', b: 'ghost*' picks no object",
                      "rule-matches-nothing: r.toml, line 7: [[test]] 't', a: 'x' picks no object",
                      "empty-set: test 't', set A, x: a set without objects clashes with nothing"):
-            self.assertIn(said, done.stderr)
-            self.assertIn(said, messages)
+            self.assertIn(stated, done.stderr)
+            self.assertIn(stated, messages)
 
     def test_a_test_that_compares_nothing_is_no_success(self):
         self.write('m.obj', cubes(0, 500))
         self.write('r.toml', '[[test]]\nname = "t"\na = "c0"\nb = "c1"\n[[test]]\nname = "u"\na = "x"\n')
-        said = "nothing was compared: set A of test 'u' is empty (x)\n"
+        stated = "nothing was compared: set A of test 'u' is empty (x)\n"
         for extra, code in (['--fail-on', 'hit'], 1), (['--strict'], 4), ([], 0):
             with self.subTest(extra=extra):
                 done = self.run_strake('clash', 'm.obj', '--rules', 'r.toml', '--quiet', *extra)
                 self.assertEqual(done.returncode, code, done.stderr)
-                self.assertEqual(done.stderr.endswith(said), code != 0, done.stderr)
+                self.assertEqual(done.stderr.endswith(stated), code != 0, done.stderr)
 
     def test_a_discipline_without_objects_stops_strict_where_it_is_checked(self):
         self.write('m.obj', cubes(0, 500))
@@ -286,12 +286,12 @@ max_depth = "any"
                                      for name, b in (('near', 'c1'), ('again', 'c1'), ('far', 'c2'))))
         done = self.run_strake('clash', 'm.obj', *self.SETTINGS, '--rules', 'r.toml', '--json')
         messages = [f"{m['code']}: {m['where']}: {m['message']}" for m in json.loads(done.stdout)['messages']]
-        for said in ("rule-shadowed: r.toml, line 5: [[exempt]] 'again': it does nothing: what it concerns is "
+        for stated in ("rule-shadowed: r.toml, line 5: [[exempt]] 'again': it does nothing: what it concerns is "
                      "exempted by earlier rules, as 'near'",
                      "rule-matches-nothing: r.toml, line 9: [[exempt]] 'far': it concerns no two objects that are "
                      "within reach of each other"):
-            self.assertIn(said, done.stderr)
-            self.assertIn(said, messages)
+            self.assertIn(stated, done.stderr)
+            self.assertIn(stated, messages)
         self.assertEqual(done.stderr.count('warning rule-'), 2, done.stderr)
 
 
@@ -369,7 +369,7 @@ class Ship(Rules):
                 results[a, b] = (r['class'], r['d_mm'], self.allowance(a, b, r))
         return results, exempted
 
-    def test_the_example_says_what_a_second_reading_says(self):
+    def test_the_example_states_what_a_second_reading_states(self):
         report = self.report('ship.glb', '--rules', self.rules, '--list-exempted')
         self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'pipes among themselves'])
         results, exempted = self.expected()
@@ -432,7 +432,7 @@ class RealModels(Rules):
         self.write('ha.toml', rules)
         report = self.report(*files.values(), '--rules', 'ha.toml')
         shown = ('class', 'relation', 'd_mm', 'd_range_mm', 'point_mm', 'flags')
-        seen = 0
+        found = 0
         for i, a in enumerate(names):
             for b in names[i + 1:]:
                 plain = self.report(files[a], files[b], '--clearance', clearance.get((a, b), '10mm'))
@@ -440,9 +440,9 @@ class RealModels(Rules):
                 got = [[r['a']['id'], r['b']['id'], *(r[key] for key in shown)] for r in report['results']
                        if (r['a']['discipline'], r['b']['discipline']) == (a, b)]
                 self.assertEqual(got, expected, (a, b))
-                seen += len(got)
-        self.assertEqual(seen, len(report['results']))
-        self.assertGreater(seen, 300)
+                found += len(got)
+        self.assertEqual(found, len(report['results']))
+        self.assertGreater(found, 300)
 
     def test_components_at_the_ends_of_real_branches_are_connected(self):
         model = self.data / 'benvautrin_pmuc' / 'plm-sample_11072013.rvm'

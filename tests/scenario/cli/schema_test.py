@@ -92,13 +92,13 @@ class Schemas(unittest.TestCase):
         self.assertEqual(odd['files'][0]['inverted'], 1)
 
     def test_convert(self):
-        told = self.follows(self.run_strake('convert', 'odd.obj', 'ship.glb', 'whole.glb', '--json'), 'convert')
-        self.assertEqual([told['output'], told['bytes']], ['whole.glb', (self.folder / 'whole.glb').stat().st_size])
-        self.assertEqual([one['file'] for one in told['files']], ['odd.obj', 'ship.glb'])
+        reported = self.follows(self.run_strake('convert', 'odd.obj', 'ship.glb', 'whole.glb', '--json'), 'convert')
+        self.assertEqual([reported['output'], reported['bytes']], ['whole.glb', (self.folder / 'whole.glb').stat().st_size])
+        self.assertEqual([one['file'] for one in reported['files']], ['odd.obj', 'ship.glb'])
         info = json.loads(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'))
         for word in ('objects', 'bodies', 'shapes'):
-            self.assertEqual(told[word], info['total'][word], word)
-        self.assertGreater(told['skipped'], 0)
+            self.assertEqual(reported[word], info['total'][word], word)
+        self.assertGreater(reported['skipped'], 0)
 
     def test_kept_scenes(self):
         (self.folder / 'cache' / 'scenes').mkdir(parents=True)
@@ -111,8 +111,8 @@ class Schemas(unittest.TestCase):
 
     def test_a_file_that_ends_early(self):
         (self.folder / 'cut.rvm').write_bytes(rvm([('/A', (0, 0, 0))], whole=False))
-        told = self.follows(self.run_strake('info', 'cut.rvm', '--json'), 'info')
-        self.assertIs(told['files'][0]['ends_early'], True)
+        reported = self.follows(self.run_strake('info', 'cut.rvm', '--json'), 'info')
+        self.assertIs(reported['files'][0]['ends_early'], True)
         self.follows(self.run_strake('clash', 'cut.rvm', '--json'), 'clash')
         drawn = self.follows(self.run_strake('draw', 'cut.rvm', '--json'), 'view')
         self.assertEqual(drawn['files_ending_early'], ['cut.rvm'])
@@ -235,12 +235,12 @@ class Schemas(unittest.TestCase):
         text += '0' * 26 + ',active,Bob,,,\r\n'
         (self.folder / 'decided.csv').write_text(text, encoding='utf-8', newline='')
         (self.folder / 'ship_revB.glb').write_bytes((self.folder / 'ship.glb').read_bytes())
-        told = self.follows(self.run_strake('clash', 'ship_revB.glb', *run[2:]), 'clash')
-        self.assertEqual([told['decisions'][key] for key in ('file', 'not_found')],
+        reported = self.follows(self.run_strake('clash', 'ship_revB.glb', *run[2:]), 'clash')
+        self.assertEqual([reported['decisions'][key] for key in ('file', 'not_found')],
                          ['decided.csv', [{'key': '0' * 26, 'status': 'active', 'by': 'Bob'}]])
-        self.assertEqual(told['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
-        self.assertEqual([m['new'] for m in told['decisions']['files_matched']], ['ship_revB.glb'])
-        decided = [result['decision'] for result in told['results'] if result['decision']['status'] != 'new']
+        self.assertEqual(reported['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual([m['new'] for m in reported['decisions']['files_matched']], ['ship_revB.glb'])
+        decided = [result['decision'] for result in reported['results'] if result['decision']['status'] != 'new']
         self.assertEqual({d['status'] for d in decided}, {'approved', 'resolved'})
 
     def test_clash_by_a_profile(self):
@@ -300,11 +300,11 @@ class Schemas(unittest.TestCase):
             for name, files in (('old', ('port.obj', 'starboard.obj')), ('new', ('new.obj',))):
                 self.run_strake(*run, *files, '--unit', 'mm', '-o', f'{name}.json')
             diff = [run[0], 'diff', 'old.json', 'new.json', '--json']
-            told = self.follows(self.run_strake(*diff), schema)
-            self.assertEqual(told['files_ambiguous'],
+            reported = self.follows(self.run_strake(*diff), schema)
+            self.assertEqual(reported['files_ambiguous'],
                              [{'run': 'new', 'file': 'new.obj', 'may_be': ['port.obj', 'starboard.obj']}])
-            told = self.follows(self.run_strake(*diff, '--match-files', 'port.obj=new.obj'), schema)
-            self.assertEqual([match['relation'] for match in told['files_matched']], ['asked'])
+            reported = self.follows(self.run_strake(*diff, '--match-files', 'port.obj=new.obj'), schema)
+            self.assertEqual([match['relation'] for match in reported['files_matched']], ['asked'])
 
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json', '-o', 'rows.view')

@@ -105,14 +105,14 @@ class SheetSet(Scenario):
             half = (window.view_height * window.width / window.height / 2, window.view_height / 2)
             windows.append([window.view_center_point[k] - half[k] for k in (0, 1)]
                            + [window.view_center_point[k] + half[k] for k in (0, 1)])
-        seen = [0, 0]
+        counts_of = [0, 0]
         for entity in document.modelspace().query('LINE LWPOLYLINE'):
             points = [entity.dxf.start, entity.dxf.end] if entity.dxftype() == 'LINE' else list(entity.vertices())
             for p in points:
                 within = [i for i, box in enumerate(windows) if box[0] <= p[0] <= box[2] and box[1] <= p[1] <= box[3]]
                 self.assertEqual(len(within), 1, p)
-                seen[within[0]] += 1
-        self.assertTrue(all(count > 10 for count in seen), seen)
+                counts_of[within[0]] += 1
+        self.assertTrue(all(count > 10 for count in counts_of), counts_of)
 
     def test_the_bytes_are_the_same_for_any_team_and_a_single_sheet_is_as_ever(self):
         self.models()
@@ -201,14 +201,14 @@ class SheetSet(Scenario):
         circle = [entity for entity in layout.query('LWPOLYLINE') if len(entity) > 20]
         self.assertTrue(any(all(abs(((p[0] - 30) ** 2 + (p[1] - 37) ** 2) ** 0.5 - 8) < 0.01 for p in entity.get_points()) for entity in circle))
 
-    def test_what_is_wrong_is_told(self):
+    def test_what_is_wrong_is_reported(self):
         self.models()
         done = self.draw('s.svg')
         self.assertEqual(done.returncode, 2)
         self.assertIn("'s.svg' holds one sheet, and 2 are given", done.stderr)
         self.assertIn("'NAME-{sheet}.svg'", done.stderr)
         view = '[[sheet.view]]\nname = "v"\n'
-        for text, told in (
+        for text, reported in (
                 ('[[sheet]]\nname = "a"\n' + view + '[[sheet]]\nname = "a"\n' + view, r"line 5.*'a' is given to two sheets"),
                 ('[[sheet]]\nname = "a/b"\n' + view, r"line 2.*cannot be part of the name of a file"),
                 # As the name of a folder in -o '{sheet}/plan.svg' it would lead out of where files are to lie.
@@ -229,14 +229,14 @@ class SheetSet(Scenario):
             self.write('wrong.toml', text)
             done = self.draw('w.svg', sheet='wrong.toml')
             self.assertEqual(done.returncode, 3, (text, done.stderr))
-            self.assertRegex(done.stderr, told)
-        for style, told in (('color=#c00000', 'does not say whose lines'), ('colour=#c00000: *', "has no 'colour'"),
+            self.assertRegex(done.stderr, reported)
+        for style, reported in (('color=#c00000', 'does not say whose lines'), ('colour=#c00000: *', "has no 'colour'"),
                             ('red: *', 'no part of a style'), ('color=red: *', 'no colour'), ('pen=1m: *', 'no width of a pen'),
                             ('pen=1mm,pen=2mm: *', 'comes again'),
                             ('name=a,name=b: *', 'comes again'), ('line=wavy: *', 'no type of line')):
             done = self.run_strake('draw', 'm.obj', *SETTINGS, '--style', style, '-o', 'w.svg')
             self.assertEqual(done.returncode, 2, style)
-            self.assertIn(told, done.stderr)
+            self.assertIn(reported, done.stderr)
 
     def test_the_example_is_three_sheets(self):
         done = self.run_strake('generate', 'ship', '--objects', 1200, '--seed', 1, '-o', 'ship.glb')

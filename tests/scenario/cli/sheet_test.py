@@ -47,9 +47,9 @@ class Sheet(Scenario):
         self.assertEqual([view.get('name') for view in views], ['front', 'top', 'left', 'iso'])
         self.assertEqual({view.get('scale') for view in views}, {'1:100'})
         for view in views:
-            told = re.search(rf"view '{view.get('name')}': (\d+) visible of", done.stderr)
-            self.assertEqual(told[1], view.get('visible'))
-            self.assertGreater(int(told[1]), 1000)
+            reported = re.search(rf"view '{view.get('name')}': (\d+) visible of", done.stderr)
+            self.assertEqual(reported[1], view.get('visible'))
+            self.assertGreater(int(reported[1]), 1000)
         texts = [text.text for text in root.iter(f'{SVG}text')]
         for wanted in ('STR-1200-001', '1:100', 'A2', 'DECK 1', 'ISOMETRIC VIEW', 'ENG-B0001-L00-D01-0001', 'CL'):
             self.assertIn(wanted, texts)
@@ -86,7 +86,7 @@ class Sheet(Scenario):
             texts = [text.text for text in layers[f'view-{view}-match-lines'].iter(f'{SVG}text')]
             self.assertEqual(texts, [f'MATCH LINE, SEE VIEW {other}'])
 
-    def test_tags_without_room_are_told_and_the_others_are_the_same_for_any_team(self):
+    def test_tags_without_room_are_reported_and_the_others_are_the_same_for_any_team(self):
         side = 9
         self.write('m.obj', ''.join(cube(f'cube-{i}', i, (i % side * 150, i // side * 150, 0), 100)
                                     for i in range(side * side)))
@@ -99,11 +99,11 @@ class Sheet(Scenario):
             got = (self.folder / 's.svg').read_bytes()
             expected = expected or got
             self.assertEqual(got, expected, threads)
-        told = re.search(r"warning tag-no-room: s.toml, line \d+: \[\[tag\]\], the view 'v': (\d+) objects are without "
+        reported = re.search(r"warning tag-no-room: s.toml, line \d+: \[\[tag\]\], the view 'v': (\d+) objects are without "
                          r"their tags, as 'A TEXT THAT IS MUCH TOO LONG FOR cube-\d+'", done.stderr)
-        self.assertTrue(told, done.stderr)
+        self.assertTrue(reported, done.stderr)
         tags = [text.text for text in self.root().iter(f'{SVG}text') if 'TOO LONG' in (text.text or '')]
-        self.assertEqual(len(tags) + int(told[1]), side * side)
+        self.assertEqual(len(tags) + int(reported[1]), side * side)
         self.assertGreater(len(tags), 10)
 
     def test_a_template_is_never_overwritten(self):
@@ -121,7 +121,7 @@ class Sheet(Scenario):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertRegex(done.stderr, r"frame\.svg, line 2.*'#a' is drawn within itself")
 
-    def test_notes_are_drawn_and_what_does_not_show_is_told(self):
+    def test_notes_are_drawn_and_what_does_not_show_is_reported(self):
         sheet = ('[arrangement]\nviews = ["front", "top", "left"]\n[arrangement.front]\nsections = "y=500mm"\n'
                  'section_mark = "A"\n[levels]\nz = ["0m", ["SKY", "9m"]]\n[scale_bar]\n[north]\n'
                  '[[parts_list]]\nselect = "*"\ncolumns = [["NAME", "{{name}}"]]\n'
@@ -161,19 +161,19 @@ class Sheet(Scenario):
         done = self.draw('--section', 'z>1m')
         self.assertEqual(done.returncode, 2, done.stderr)
 
-    def test_far_objects_are_told_and_left_out_of_all_arranged_views(self):
+    def test_far_objects_are_reported_and_left_out_of_all_arranged_views(self):
         self.write('m.obj', ''.join(cube(f'a{i}', i, (1500 * i, 0, 0), 1000) for i in range(5))
                    + cube('lost', 5, (0, 1000000, 0), 1000))
         self.write('s.toml', 'arrangement = "first-angle"\n')
-        told = self.draw().stderr
-        self.assertEqual(re.findall(r"warning far-object: .* lies (\d+) m from the rest: the view '(\w+)'", told),
+        reported = self.draw().stderr
+        self.assertEqual(re.findall(r"warning far-object: .* lies (\d+) m from the rest: the view '(\w+)'", reported),
                          [('999', 'top'), ('999', 'left'), ('701', 'iso')])  # the front view looks along the way to it
         self.assertEqual(self.root().findall(f'.//{SHEET}far-object'), [])
         self.assertEqual({view.get('scale') for view in self.root().findall(f'.//{SHEET}view')}, {'1:5000'})
         self.write('s.toml', 'arrangement = "first-angle"\n[defaults]\nlimits = "auto"\n')
-        told = self.draw().stderr
-        self.assertNotIn('warning', told)
-        self.assertEqual(len(re.findall('note far-object-left-out: ', told)), 4)
+        reported = self.draw().stderr
+        self.assertNotIn('warning', reported)
+        self.assertEqual(len(re.findall('note far-object-left-out: ', reported)), 4)
         views = self.root().findall(f'.//{SHEET}view')
         self.assertEqual([[far.get('name') for far in view] for view in views], [['lost']] * 4)
         self.assertEqual({view.get('objects') for view in views}, {'5'})
@@ -189,7 +189,7 @@ class Sheet(Scenario):
         self.assertEqual(self.draw('--solver', 'brute-force').returncode, 0)
         self.assertEqual((self.folder / 's.svg').read_bytes(), ways)
 
-    def test_what_is_amiss_is_told(self):
+    def test_what_is_amiss_is_reported(self):
         self.small('[[view]]\nname = "v"\nselect = "nobody"\n[fields]\ncolour = "red"\n')
         done = self.draw()
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -234,7 +234,7 @@ class Sheet(Scenario):
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(words, done.stderr)
 
-    def test_a_sheet_says_itself_what_options_say_otherwise(self):
+    def test_a_sheet_states_itself_what_options_state_otherwise(self):
         self.small('arrangement = "first-angle"\n')
         for more in (['--view', 'top'], ['--scale', '1:50'], ['--paper', 'A1'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
                      ['--json'], ['-o', 's.json'], ['-o', 's.toml']):

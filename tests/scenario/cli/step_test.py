@@ -79,8 +79,8 @@ class Step(Scenario):
         self.assertIn('<path', (self.folder / 'curved.svg').read_text(encoding='utf-8'))
 
     def test_solids_are_closed(self):
-        told = self.text('info', 'curved.step')
-        self.assertIn('6 solids, 0 sheets, 0 wires; 0 inside out', told)
+        reported = self.text('info', 'curved.step')
+        self.assertIn('6 solids, 0 sheets, 0 wires; 0 inside out', reported)
         self.assertIn('1 sheets', self.text('info', 'open.step'))
         self.assertIn('2 solids, 0 sheets', self.text('info', 'faces.igs'))
 
@@ -100,7 +100,7 @@ class Step(Scenario):
         self.assertEqual((done.returncode, done.stdout), (1, b''))
         self.assertEqual(lines[-1]['error'], "the file is damaged: line 5: a '(' of this statement is not closed")
 
-    def test_triangles_are_as_fine_as_is_asked_for(self):
+    def test_triangles_are_as_fine_as_is_requested(self):
         def triangles(**environment):
             return int(re.search(r'triangles +(\d+)', self.text('info', 'curved.step', env=environment))[1])
         usual = triangles()
@@ -114,7 +114,7 @@ class Step(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def test_a_file_in_part_says_what_it_lacks(self):
+    def test_a_file_in_part_states_what_it_lacks(self):
         text = (self.folder / 'rig.step').read_text(encoding='utf-8')
         whole = text.replace('\r', '')
         gone = re.search(r"\n#\d+ = ADVANCED_FACE[^;]*;", whole)
@@ -125,7 +125,7 @@ class Step(Scenario):
         (self.folder / 'rig.step').write_text(text[:len(text) // 2], encoding='utf-8')
         self.assertIn('rig.step: the file ends too soon', self.run_strake('info', 'rig.step').stderr)
 
-    def test_without_the_importer_it_is_said_how_to_get_it(self):
+    def test_without_the_importer_it_is_stated_how_to_get_it(self):
         alone = self.folder / 'alone'
         alone.mkdir()
         (alone / 'strake').write_bytes(Path(self.STRAKE).read_bytes())

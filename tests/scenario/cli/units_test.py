@@ -43,14 +43,14 @@ class Units(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads((self.folder / 'x.json').read_text(encoding='utf-8')), done.stderr
 
-    def test_a_unit_is_doubted_until_it_is_said(self):
+    def test_a_unit_is_doubted_until_it_is_stated(self):
         self.parts(one_mm=1, one_m=1000, one_in=25.4)
         for other, unit in (('one_m.stl', 'm'), ('one_in.stl', 'in')):
             for run in (self.info, self.clash, self.draw):
                 with self.subTest(unit=unit, run=run.__name__):
-                    told = run('one_mm.stl', other)[1]
-                    self.assertIn('warning unit-doubtful: one_mm.stl: ', told)
-                    self.assertIn(f"--unit '{other}={unit}'", told)
+                    reported = run('one_mm.stl', other)[1]
+                    self.assertIn('warning unit-doubtful: one_mm.stl: ', reported)
+                    self.assertIn(f"--unit '{other}={unit}'", reported)
                     self.assertNotIn('unit-doubtful', run('one_mm.stl', other, '--unit', f'{other}={unit}')[1])
 
     def test_parts_of_unlike_size_are_not_doubted(self):
@@ -60,21 +60,21 @@ class Units(Scenario):
         for other in ('other.stl', 'tenth.stl'):
             self.assertNotIn('unit-doubtful', self.info('one_mm.stl', other)[1])
 
-    def test_info_says_which_unit_was_taken_of_each_file(self):
+    def test_info_states_which_unit_was_taken_of_each_file(self):
         self.parts(one_mm=1, one_m=1000, one_in=25.4)
-        told, _ = self.info('one_mm.stl', 'one_m.stl', 'one_in.stl', '--unit', 'one_m.stl=m', '--unit', 'one_in.stl=in')
-        self.assertEqual({f['file']: f['unit'] for f in told['files']},
+        reported, _ = self.info('one_mm.stl', 'one_m.stl', 'one_in.stl', '--unit', 'one_m.stl=m', '--unit', 'one_in.stl=in')
+        self.assertEqual({f['file']: f['unit'] for f in reported['files']},
                          {'one_mm.stl': 'mm (assumed)', 'one_m.stl': 'm (given)', 'one_in.stl': 'in (given)'})
         for axis, size in enumerate(SIZE_MM):
-            self.assertAlmostEqual(told['total']['extents_mm']['hi'][axis], size, delta=.01)
+            self.assertAlmostEqual(reported['total']['extents_mm']['hi'][axis], size, delta=.01)
 
     def test_clash_finds_the_part_in_itself(self):
         self.parts(one_mm=1, one_m=1000)
         doubted, _ = self.clash('one_mm.stl', 'one_m.stl')
         self.assertEqual([m['code'] for m in doubted['messages'] if m['code'] == 'unit-doubtful'], ['unit-doubtful'])
-        for said in (['--unit', 'one_m.stl=m'], ['--unit', 'm', '--unit', 'one_mm.stl=mm']):
-            with self.subTest(said=said):
-                result, _ = self.clash('one_mm.stl', 'one_m.stl', *said)
+        for stated in (['--unit', 'one_m.stl=m'], ['--unit', 'm', '--unit', 'one_mm.stl=mm']):
+            with self.subTest(stated=stated):
+                result, _ = self.clash('one_mm.stl', 'one_m.stl', *stated)
                 self.assertEqual([r['class'] for r in result['results']], ['HIT'])
                 # The deepest point of a box is half its thickness in.
                 self.assertAlmostEqual(result['results'][0]['d_mm'], -SIZE_MM[2] / 2, delta=.01)
@@ -98,15 +98,15 @@ class Units(Scenario):
         for folder in ('hull', 'rev=2'):
             (self.folder / folder).mkdir()
             self.write(f'{folder}/a.stl', stl(SIZE_MM))
-        for said, units in (('hull/a.stl=m', ('m (given)', 'mm (assumed)')),
+        for stated, units in (('hull/a.stl=m', ('m (given)', 'mm (assumed)')),
                             ('rev=2/a.stl=m', ('mm (assumed)', 'm (given)'))):
-            told, _ = self.info('hull/a.stl', 'rev=2/a.stl', '--unit', said)
-            self.assertEqual(tuple(f['unit'] for f in told['files']), units)
-        for said, why in (('a.stl=m', 'write more of the path'), ('b.stl=m', 'none of the files'), ('=m', 'part.stl=m'),
+            reported, _ = self.info('hull/a.stl', 'rev=2/a.stl', '--unit', stated)
+            self.assertEqual(tuple(f['unit'] for f in reported['files']), units)
+        for stated, why in (('a.stl=m', 'write more of the path'), ('b.stl=m', 'none of the files'), ('=m', 'part.stl=m'),
                           ('hull/a.stl=', 'um, mm')):
             for option in (['info'], ['clash'], ['draw', '-o', 'x.svg']):
-                with self.subTest(said=said, option=option):
-                    done = self.run_strake(*option, 'hull/a.stl', 'rev=2/a.stl', '--unit', said)
+                with self.subTest(stated=stated, option=option):
+                    done = self.run_strake(*option, 'hull/a.stl', 'rev=2/a.stl', '--unit', stated)
                     self.assertEqual(done.returncode, 2, done.stderr)
                     self.assertIn(why, done.stderr)
                     self.assertIn('--unit', done.stderr)

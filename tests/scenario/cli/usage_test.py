@@ -27,7 +27,7 @@ class Usage(Scenario):
                 self.assertEqual(done.stdout, self.text(*verb, '--help'))
 
     def test_what_is_misspelt_is_guessed(self):
-        for arguments, said in (
+        for arguments, stated in (
                 (['clahs'], "there is no verb 'clahs' (did you mean 'clash'?)"),
                 (['frobnicate'], "there is no verb 'frobnicate' (the verbs are clash, draw, info"),
                 (['help', 'drwa'], "there is no verb 'drwa' (did you mean 'draw'?)"),
@@ -41,11 +41,11 @@ class Usage(Scenario):
             with self.subTest(arguments):
                 done = self.run_strake(*arguments)
                 self.assertEqual((done.returncode, done.stdout), (2, ''))
-                self.assertIn(said, done.stderr)
+                self.assertIn(stated, done.stderr)
 
-    def test_wrong_command_lines_are_usage_errors_that_say_what(self):
+    def test_wrong_command_lines_are_usage_errors_that_state_what(self):
         self.two_files()
-        for arguments, said in (
+        for arguments, stated in (
                 ([], 'no verb is given'),
                 (['frobnicate'], 'frobnicate'),
                 (['info'], 'no model file'),
@@ -95,14 +95,14 @@ class Usage(Scenario):
             with self.subTest(arguments):
                 done = self.run_strake(*arguments)
                 self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(said, done.stderr)
+                self.assertIn(stated, done.stderr)
                 self.assertIn('strake: error: ', done.stderr)
                 self.assertEqual(done.stdout, '')
         self.assertEqual(self.files(), ['a.obj', 'b.obj'])
 
 
-    def test_what_makes_no_sense_is_said_before_a_model_is_read(self):
-        for arguments, said in (
+    def test_what_makes_no_sense_is_stated_before_a_model_is_read(self):
+        for arguments, stated in (
                 (['clash', 'missing.obj', '--clearance', '1e300mm'], '--clearance: '),
                 (['clash', 'missing.obj', '--contact-distance', '2km'], '--contact-distance: '),
                 (['draw', 'missing.obj', '-o', 'a.svg', '--direction', '1,1,1', '--up', '2,2,2'], '--up: '),
@@ -110,7 +110,7 @@ class Usage(Scenario):
             with self.subTest(arguments):
                 done = self.run_strake(*arguments)
                 self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(said, done.stderr)
+                self.assertIn(stated, done.stderr)
                 self.assertNotIn('missing.obj', done.stderr)
 
     def test_an_option_takes_one_value_and_leaves_the_next_word_alone(self):

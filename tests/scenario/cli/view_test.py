@@ -49,7 +49,7 @@ class View(Scenario):
                 process.send_signal(signal.SIGINT)
             process.communicate(timeout=60)
 
-    def ask(self, method, path, body=None, **changed):
+    def request(self, method, path, body=None, **changed):
         """The answer, with its body as text; a header that is None is left out."""
         headers = {'Host': f'127.0.0.1:{self.port}', 'Strake-Token': self.token,
                    **{name.replace('_', '-'): value for name, value in changed.items()}}
@@ -71,7 +71,7 @@ class View(Scenario):
         return answer
 
     def decide(self, keys, run=1, event=0, expect=200, **decision):
-        answer = self.ask('POST', '/api/decide', json.dumps({'run': run, 'event': event, 'keys': keys, **decision}))
+        answer = self.request('POST', '/api/decide', json.dumps({'run': run, 'event': event, 'keys': keys, **decision}))
         self.assertEqual(answer.status, expect, answer.text)
         return json.loads(answer.text)
 
@@ -82,7 +82,7 @@ class View(Scenario):
     def test_the_page_is_that_of_the_report_and_may_ask_its_server_alone(self):
         self.text('report', '-p', 'p.strake', '-o', 'r.html')
         with self.served():
-            page = self.ask('GET', f'/?token={self.token}', Strake_Token=None)
+            page = self.request('GET', f'/?token={self.token}', Strake_Token=None)
             self.assertEqual(page.status, 200)
             self.assertEqual(page.getheader('Content-Type'), 'text/html; charset=utf-8')
             self.assertEqual(page.getheader('Cache-Control'), 'no-store')
@@ -95,7 +95,7 @@ class View(Scenario):
             cookie = page.getheader('Set-Cookie')
             self.assertIn('HttpOnly; SameSite=Strict', cookie)
             self.assertNotIn(self.token, cookie)
-            again = self.ask('GET', '/', Strake_Token=None, Cookie=cookie.split(';')[0])
+            again = self.request('GET', '/', Strake_Token=None, Cookie=cookie.split(';')[0])
             self.assertEqual(again.text, page.text)
         # All but what says that it is served, and its head, is what the file has.
         report = (self.folder / 'r.html').read_text()
@@ -106,19 +106,19 @@ class View(Scenario):
     def test_nothing_is_answered_without_the_token_or_to_others(self):
         with self.served():
             for path in ('/', '/api/state?event=0', '/api/decide', '/x', f'/api/state?event=0&token={self.token}'):
-                self.assertEqual(self.ask('GET', path, Strake_Token=None).status, 403, path)
-            self.assertEqual(self.ask('GET', '/api/state?event=0').status, 200)
+                self.assertEqual(self.request('GET', path, Strake_Token=None).status, 403, path)
+            self.assertEqual(self.request('GET', '/api/state?event=0').status, 200)
             for host in ('evil.example', f'evil.example:{self.port}', '127.0.0.1', None):
-                self.assertIn(self.ask('GET', '/api/state?event=0', Host=host).status, (400, 403), host)
+                self.assertIn(self.request('GET', '/api/state?event=0', Host=host).status, (400, 403), host)
             for origin in ('http://evil.example', 'null', None):
-                answer = self.ask('POST', '/api/decide', '{}', Origin=origin)
+                answer = self.request('POST', '/api/decide', '{}', Origin=origin)
                 self.assertEqual(answer.status, 403, origin)
                 self.assertIsNone(answer.getheader('Access-Control-Allow-Origin'))
-            self.assertEqual(self.ask('OPTIONS', '/api/decide', Origin='http://evil.example').status, 403)
-            self.assertEqual(self.ask('PUT', '/', Origin=f'http://127.0.0.1:{self.port}').status, 405)
-            self.assertEqual(self.ask('GET', '/../p.strake').status, 404)
-            self.assertEqual(self.ask('GET', '/%2e%2e/p.strake').status, 404)
-            self.assertEqual(self.ask('POST', '/api/decide', '{}', Content_Type='text/plain').status, 415)
+            self.assertEqual(self.request('OPTIONS', '/api/decide', Origin='http://evil.example').status, 403)
+            self.assertEqual(self.request('PUT', '/', Origin=f'http://127.0.0.1:{self.port}').status, 405)
+            self.assertEqual(self.request('GET', '/../p.strake').status, 404)
+            self.assertEqual(self.request('GET', '/%2e%2e/p.strake').status, 404)
+            self.assertEqual(self.request('POST', '/api/decide', '{}', Content_Type='text/plain').status, 415)
         self.assertEqual(set(self.statuses().values()), {'new'})
 
     def test_other_addresses_of_the_machine_do_not_answer(self):
@@ -145,27 +145,27 @@ class View(Scenario):
         for words in ([self.keys[0], '--status', 'approved', '--comment', 'as agreed', '--assignee', 'Bob'],
                       [self.keys[0], '--comment', ''], [self.keys[1], '--status', 'reviewed']):
             self.text('clash', 'set', '-p', 'q.strake', '--by', 'Ann', *words)
-        told = []
+        reported = []
         for name in ('p.strake', 'q.strake'):
             with sqlite3.connect(self.folder / name) as project:
-                told.append(project.execute('SELECT key, status, decided_by, comment, assignee, decided_d_mm FROM clashes '
+                reported.append(project.execute('SELECT key, status, decided_by, comment, assignee, decided_d_mm FROM clashes '
                                             'ORDER BY key').fetchall()
                             + project.execute('SELECT clash, run, who, before, after, comment FROM event').fetchall())
-        self.assertEqual(told[0], told[1])
+        self.assertEqual(reported[0], reported[1])
 
     def test_what_others_do_meanwhile_is_noticed(self):
         with self.served():
             self.text('clash', 'set', '-p', 'p.strake', self.keys[0], '--status', 'reviewed', '--by', 'Bob')
-            state = json.loads(self.ask('GET', '/api/state?event=0').text)
+            state = json.loads(self.request('GET', '/api/state?event=0').text)
             self.assertEqual([clash['status'] for clash in state['clashes']], ['reviewed'])
             done = self.decide(self.keys, expect=409, status='approved')
             self.assertEqual(done['refused'], [{'key': self.keys[0], 'why': 'Bob made it reviewed meanwhile'}])
             self.assertEqual(self.statuses(), {self.keys[0]: 'reviewed', self.keys[1]: 'approved'})
-            before = self.ask('GET', '/').text
+            before = self.request('GET', '/').text
             self.text('clash', '-p', 'p.strake')
-            state = json.loads(self.ask('GET', f"/api/state?event={done['event']}").text)
+            state = json.loads(self.request('GET', f"/api/state?event={done['event']}").text)
             self.assertEqual(state['run'], 2)
-            self.assertNotEqual(self.ask('GET', '/').text, before, 'the page is that of the new run')
+            self.assertNotEqual(self.request('GET', '/').text, before, 'the page is that of the new run')
 
     def test_what_a_later_run_measured_otherwise_is_not_approved_unseen(self):
         with self.served():
@@ -173,23 +173,23 @@ class View(Scenario):
                        + cube('a2', 2, (900, 0, 0), 100) + cube('a3', 3, (950, 50, 50), 100))
             self.text('project', 'update', 'p.strake')
             self.text('clash', '-p', 'p.strake')
-            event = json.loads(self.ask('GET', '/api/state?event=0').text)['event']
+            event = json.loads(self.request('GET', '/api/state?event=0').text)['event']
             done = self.decide(self.keys, event=event, expect=409, status='approved')
             self.assertEqual([refused['why'] for refused in done['refused']], ['run 2 finds it otherwise: HIT, d = -30.000 mm'])
             self.assertEqual(sorted(self.statuses().values()), ['active', 'approved'])
             self.decide(self.keys, run=2, event=event + 1, status='approved')
 
-    def test_a_project_that_is_locked_is_told_and_served_on(self):
+    def test_a_project_that_is_locked_is_reported_and_served_on(self):
         with self.served():
             writer = sqlite3.connect(self.folder / 'p.strake', isolation_level=None)
             writer.execute('BEGIN IMMEDIATE')
-            answer = self.ask('POST', '/api/decide',
+            answer = self.request('POST', '/api/decide',
                               json.dumps({'run': 1, 'event': 0, 'keys': self.keys, 'status': 'approved'}))
             self.assertEqual(answer.status, 503)
-            told = json.loads(answer.text)
+            reported = json.loads(answer.text)
             alone = self.run_strake('clash', 'set', '-p', 'p.strake', self.keys[0], '--status', 'approved')
-            self.assertIn(told['error'].split(': ', 1)[1], alone.stderr)
-            self.assertEqual(self.ask('GET', '/').status, 200)
+            self.assertIn(reported['error'].split(': ', 1)[1], alone.stderr)
+            self.assertEqual(self.request('GET', '/').status, 200)
             writer.execute('ROLLBACK')
             writer.close()
             self.decide(self.keys, status='approved')
@@ -199,10 +199,10 @@ class View(Scenario):
             for move in (lambda: (self.folder / 'p.strake').rename(self.folder / 'away.strake'),
                          lambda: self.write('p.strake', 'another one')):
                 move()
-                told = self.decide(self.keys, expect=503, status='approved')
-                self.assertIn('was moved, deleted or replaced', told['error'])
-                self.assertEqual(self.ask('GET', '/api/state?event=0').status, 503)
-                page = self.ask('GET', '/')
+                reported = self.decide(self.keys, expect=503, status='approved')
+                self.assertIn('was moved, deleted or replaced', reported['error'])
+                self.assertEqual(self.request('GET', '/api/state?event=0').status, 503)
+                page = self.request('GET', '/')
                 self.assertEqual((page.status, page.getheader('Content-Type')), (503, 'text/plain; charset=utf-8'))
             (self.folder / 'away.strake').rename(self.folder / 'p.strake')
             self.decide(self.keys[:1], status='approved')
@@ -218,8 +218,8 @@ class View(Scenario):
             try:
                 for _ in range(4):
                     time.sleep(.2)
-                    self.assertEqual(self.ask('GET', '/api/state?event=0').status, 200)
-                    self.assertEqual(self.ask('GET', '/', Strake_Token=self.token).status, 200)
+                    self.assertEqual(self.request('GET', '/api/state?event=0').status, 200)
+                    self.assertEqual(self.request('GET', '/', Strake_Token=self.token).status, 200)
                 self.assertTrue(waits.is_alive())
             finally:
                 other.execute('ROLLBACK')
@@ -229,10 +229,10 @@ class View(Scenario):
         with self.served('--wait', '1'):
             other = sqlite3.connect(self.folder / 'p.strake', isolation_level=None)
             other.execute('BEGIN IMMEDIATE')
-            told = self.ask('POST', '/api/decide', json.dumps({'run': 1, 'event': 9, 'keys': self.keys, 'status': 'new'}))
+            reported = self.request('POST', '/api/decide', json.dumps({'run': 1, 'event': 9, 'keys': self.keys, 'status': 'new'}))
             other.close()
-            self.assertEqual(told.status, 503, told.text)
-            self.assertIn('another program writes to the project', told.text)
+            self.assertEqual(reported.status, 503, reported.text)
+            self.assertIn('another program writes to the project', reported.text)
         self.assertEqual(self.statuses()[self.keys[0]], 'approved')
 
     def test_slow_and_broken_clients_keep_nobody_waiting(self):
@@ -248,7 +248,7 @@ class View(Scenario):
                     except OSError:
                         pass  # it was turned away before all of it was sent
             before = time.monotonic()
-            self.assertEqual(self.ask('GET', '/api/state?event=0').status, 200)
+            self.assertEqual(self.request('GET', '/api/state?event=0').status, 200)
             self.assertLess(time.monotonic() - before, 10)
             for client in slow:
                 client.close()
@@ -259,7 +259,7 @@ class View(Scenario):
             done = self.decide(self.keys[:1], assignee=name, comment=name)
             self.assertEqual(done['clashes'][0]['assignee'], name)
             self.assertEqual(done['clashes'][0]['comment'], name)
-            self.assertNotIn(name, self.ask('GET', '/').text)
+            self.assertNotIn(name, self.request('GET', '/').text)
 
     def test_an_interruption_ends_it_well(self):
         for name in ('SIGINT', 'SIGTERM'):
@@ -284,14 +284,14 @@ class View(Scenario):
         with self.served('--port', str(port)):
             self.assertEqual(self.port, port)
             self.assertNotEqual(self.token, first)
-            self.assertEqual(self.ask('GET', '/', Strake_Token=first).status, 403)
+            self.assertEqual(self.request('GET', '/', Strake_Token=first).status, 403)
 
-    def test_a_wrong_command_line_is_told(self):
-        for words, told in ((['view'], 'no project is given'), (['view', '-p', 'p.strake', '--port', '70000'], 'there is no port'),
+    def test_a_wrong_command_line_is_reported(self):
+        for words, reported in ((['view'], 'no project is given'), (['view', '-p', 'p.strake', '--port', '70000'], 'there is no port'),
                             (['view', '-p', 'p.strake', '--port', 'x'], '--port')):
             done = self.run_strake(*words)
             self.assertEqual(done.returncode, 2)
-            self.assertIn(told, done.stderr)
+            self.assertIn(reported, done.stderr)
         self.assertEqual(self.run_strake('view', '-p', 'none.strake').returncode, 3)
 
 

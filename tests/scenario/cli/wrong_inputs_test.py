@@ -42,7 +42,7 @@ CHOICES = ['clash a.obj --fail-on', 'clash a.obj --thickness-cap', 'clash a.obj 
 
 def behind(lines, values):
     """Each command line with each value: a row names the option, the last one of the line."""
-    return [(f'{line} {value}', line.split()[-1], said) for line in lines for value, said in values]
+    return [(f'{line} {value}', line.split()[-1], stated) for line in lines for value, stated in values]
 
 
 USAGE = [
@@ -323,7 +323,7 @@ class WrongInputs(Scenario):
         self.write('s.toml', 'arrangement = "first-angle"\n')
         self.write('letter.txt', 'Dear reader,\n')
 
-    def refused(self, arguments, code, place, said):
+    def refused(self, arguments, code, place, stated):
         """Runs it and checks the answer: one line that names the place, says this, and ends in a mend; nothing else is left."""
         before = self.files()
         with self.subTest(shlex.join(arguments)):
@@ -332,7 +332,7 @@ class WrongInputs(Scenario):
             errors = [line for line in done.stderr.splitlines() if line.startswith('strake: error: ')]
             self.assertEqual(len(errors), 1, done.stderr)
             self.assertIn(place, errors[0])
-            self.assertIn(said, errors[0])
+            self.assertIn(stated, errors[0])
             self.assertRegex(errors[0], r' \(.+\)$', 'a mend')
             self.assertNotRegex(done.stderr, r'std::|terminate|what\(\)|internal fault|bad_alloc|_[A-Z]\w+_')
         left = set(self.files()) - set(before)
@@ -342,10 +342,10 @@ class WrongInputs(Scenario):
             self.assertEqual(left, set())
 
     def test_command_lines(self):
-        for line, place, said in USAGE:
-            self.refused(shlex.split(line), 2, place, said)
-        for line, place, said in OUTPUT:
-            self.refused(shlex.split(line), 3, place, said)
+        for line, place, stated in USAGE:
+            self.refused(shlex.split(line), 2, place, stated)
+        for line, place, stated in OUTPUT:
+            self.refused(shlex.split(line), 3, place, stated)
 
     def made(self, name, content, whole):
         """Writes a file, or what is left of a whole one."""
@@ -358,37 +358,37 @@ class WrongInputs(Scenario):
         return name
 
     def test_models(self):
-        for name, content, said in MODELS:
+        for name, content, stated in MODELS:
             self.made(name, content, b'')
             for verb in (['info'], ['clash', '-o', 'x.json'], ['draw', '-o', 'x.svg']):
-                self.refused([*verb, name], 3, name, said)
+                self.refused([*verb, name], 3, name, stated)
 
     def test_results_and_drawings(self):
         for verb, good, files in (('clash', 'c.json', RESULTS), ('draw', 'v.view', VIEWS)):
             whole = (self.folder / good).read_bytes()
-            for name, content, said in files:
+            for name, content, stated in files:
                 self.made(name, content, whole)
-                self.refused([verb, 'diff', name, good, '-o', 'x.json'], 3, name, said)
-                self.refused([verb, 'diff', good, name, '-o', 'x.json'], 3, name, said)
+                self.refused([verb, 'diff', name, good, '-o', 'x.json'], 3, name, stated)
+                self.refused([verb, 'diff', good, name, '-o', 'x.json'], 3, name, stated)
 
     def test_settings(self):
         for name, option, output, files in (('r.toml', ['clash', '--rules'], 'x.json', RULES),
                                             ('w.toml', ['draw', '--sheet'], 'x.svg', SHEETS)):
-            for text, place, said in files:
+            for text, place, stated in files:
                 self.write(name, text)
                 verb, flag = option
                 where = f'{name}, {place}' if place.startswith('line ') else place or name
                 with self.subTest(text=text):
-                    self.refused([verb, 'a.obj', flag, name, '-o', output], 3, where, said)
+                    self.refused([verb, 'a.obj', flag, name, '-o', output], 3, where, stated)
             self.refused([option[0], 'a.obj', option[1], 'missing.toml', '-o', output], 3, 'missing.toml', 'cannot be read')
             self.refused([option[0], 'a.obj', option[1], 'folder', '-o', output], 3, 'folder', 'file')
 
     def test_templates(self):
         self.write('w.toml', '[sheet]\ntemplate = "t.svg"\n' + VIEW)
-        for text, said in TEMPLATES:
+        for text, stated in TEMPLATES:
             self.write('t.svg', text)
             with self.subTest(text=text):
-                self.refused(['draw', 'a.obj', '--sheet', 'w.toml', '-o', 'x.svg'], 3, 't.svg, line 1', said)
+                self.refused(['draw', 'a.obj', '--sheet', 'w.toml', '-o', 'x.svg'], 3, 't.svg, line 1', stated)
 
     def test_there_is_a_row_for_every_option(self):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'

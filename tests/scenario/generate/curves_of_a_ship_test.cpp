@@ -54,7 +54,7 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
   }
 
   /// Raises the depths of the pairs that a point of a line is inside of.
-  void look(std::uint32_t object, const Vec3l& p) {
+  void check_point(std::uint32_t object, const Vec3l& p) {
     for (const Solid& solid : solids_) {
       const Vec3l at = p - solid.placed.origin;
       const auto box = solid.placed.part->box.as<std::int64_t>();
@@ -79,8 +79,8 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
           const int steps = 1 + static_cast<int>(length / kStepMm);
           for (int k = 0; k <= steps; ++k) {
             const Vec3d q = p + e * (static_cast<double>(k) / steps);
-            look(object,
-                 wire.origin + Vec3l{std::llround(q.x), std::llround(q.y), std::llround(q.z)});
+            check_point(object, wire.origin +
+                                    Vec3l{std::llround(q.x), std::llround(q.y), std::llround(q.z)});
           }
         }
     }

@@ -64,7 +64,7 @@ TEST(ClashReference, AClashNamedTwiceIsThereOnce) {
   EXPECT_EQ(found->clashes[0].status, DecisionStatus::reviewed);
 }
 
-TEST(ClashReference, GuidsTellClashesGroupsAndPartsApart) {
+TEST(ClashReference, GuidsDistinguishClashesGroupsAndParts) {
   EXPECT_EQ(clash_guid(kKeyOne), clash_guid(kKeyOne));
   EXPECT_NE(clash_guid(kKeyOne), clash_guid(kKeyTwo));
   EXPECT_NE(clash_guid(kKeyOne), group_guid(kKeyOne));

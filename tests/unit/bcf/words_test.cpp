@@ -10,11 +10,11 @@ using report::DecisionStatus;
 
 TEST(TopicWords, StatusesComeBackAsTheyWere) {
   for (const DecisionStatus status : report::kDecisionStatuses) {
-    const std::optional<ParsedStatus> said = parse_topic_status(topic_status(status));
-    ASSERT_TRUE(said) << name(status);
-    EXPECT_EQ(*said == ParsedStatus::open, status == DecisionStatus::undecided) << name(status);
-    if (*said != ParsedStatus::open) {
-      EXPECT_EQ(decided_status(*said), status) << name(status);
+    const std::optional<ParsedStatus> stated = parse_topic_status(topic_status(status));
+    ASSERT_TRUE(stated) << name(status);
+    EXPECT_EQ(*stated == ParsedStatus::open, status == DecisionStatus::undecided) << name(status);
+    if (*stated != ParsedStatus::open) {
+      EXPECT_EQ(decided_status(*stated), status) << name(status);
     }
   }
 }

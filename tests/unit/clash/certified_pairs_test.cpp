@@ -35,7 +35,7 @@ class Draw : public test::Draw {
   using test::Draw::Draw;
 
   double operator()(double lo, double hi) { return between(lo, hi); }
-  /// One of the lengths that tell the classes apart, well away from any threshold.
+  /// One of the lengths that distinguish the classes, well away from any threshold.
   double gap() {
     constexpr std::array<double, 10> kGaps{-40, -9, -2.5, -0.6, -0.02, 0.02, 0.7, 3, 11, 24};
     return kGaps[below(kGaps.size())];

@@ -204,11 +204,11 @@ TEST(CoplanarSheets, SeparationChangesByNoMoreThanTheMoveWithinTheContactDistanc
 }
 
 /// What a pair is judged to be, but for which of the two is a.
-auto judgement(const Pair& p) {
+auto evaluation(const Pair& p) {
   return std::tuple(p.cls, p.relation, p.flags, p.d_mm, p.d_lower_mm, p.d_upper_mm, p.point_mm);
 }
 
-TEST(CoplanarSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
+TEST(CoplanarSheets, AreClassifiedTheSameWhicheverWayTheyAreWrittenDown) {
   test::Draw draw(11);
   parallel::Team team(3);
   const TriangleMesh half = drawn(arc(500, 0, 12), 0, 1000, 5, true);
@@ -227,9 +227,9 @@ TEST(CoplanarSheets, AreJudgedTheSameWhicheverWayTheyAreWrittenDown) {
       const Mat3d turn = draw.rotation();
       const TriangleMesh x = placed(a, turn, {1, 2, 3}), y = placed(b, turn, {1, 2, 3});
       const Pair p = pair_of(x, y);
-      EXPECT_EQ(judgement(pair_of(y, x)), judgement(p));
-      EXPECT_EQ(judgement(pair_of(x, y, {.team = &team})), judgement(p));
-      EXPECT_EQ(judgement(pair_of(shuffled(x, draw), shuffled(y, draw))), judgement(p));
+      EXPECT_EQ(evaluation(pair_of(y, x)), evaluation(p));
+      EXPECT_EQ(evaluation(pair_of(x, y, {.team = &team})), evaluation(p));
+      EXPECT_EQ(evaluation(pair_of(shuffled(x, draw), shuffled(y, draw))), evaluation(p));
     }
 }
 

@@ -35,16 +35,16 @@ ClashModel cube_and_line(const std::vector<Vec3d>& points) {
   return m;
 }
 
-Pair judged(const ClashModel& m) { return test::only(m, with_curves()); }
+Pair evaluated(const ClashModel& m) { return test::only(m, with_curves()); }
 
-TEST(Curves, AreOffUnlessAskedFor) {
+TEST(Curves, AreOffUnlessRequested) {
   const ClashModel m = cube_and_line({{-500, 500, 500}, {1500, 500, 500}});
   EXPECT_TRUE(m.detect({}).pairs.empty());
   EXPECT_EQ(m.detect(with_curves()).pairs.size(), 1U);
 }
 
 TEST(Curves, ALineThroughACubeIsAsDeepAsItsMiddle) {
-  const Pair p = judged(cube_and_line({{-500, 500, 300}, {1500, 500, 300}}));
+  const Pair p = evaluated(cube_and_line({{-500, 500, 300}, {1500, 500, 300}}));
   expect(p, Class::hit, Relation::cross, -300, 0.01);
   // The deepest point, and out through the nearest face.
   EXPECT_NEAR(p.point_mm.z, 300, 0.01);
@@ -53,14 +53,14 @@ TEST(Curves, ALineThroughACubeIsAsDeepAsItsMiddle) {
 }
 
 TEST(Curves, ClassesFollowTheThresholds) {
-  expect(judged(cube_and_line({{200, 200, 1000}, {800, 200, 1000}})), Class::contact,
+  expect(evaluated(cube_and_line({{200, 200, 1000}, {800, 200, 1000}})), Class::contact,
          Relation::abut_outside, 0, 0.002);
-  expect(judged(cube_and_line({{200, 200, 1000.7}, {800, 200, 1000.7}})), Class::contact,
+  expect(evaluated(cube_and_line({{200, 200, 1000.7}, {800, 200, 1000.7}})), Class::contact,
          Relation::separate, 0.7);
-  expect(judged(cube_and_line({{200, 200, 999.5}, {800, 200, 999.5}})), Class::contact,
+  expect(evaluated(cube_and_line({{200, 200, 999.5}, {800, 200, 999.5}})), Class::contact,
          Relation::b_in_a, -0.5, 0.01);
   const ClashModel near = cube_and_line({{200, 200, 1020}, {800, 200, 1020}});
-  EXPECT_EQ(judged(near).cls, Class::no_hit);
+  EXPECT_EQ(evaluated(near).cls, Class::no_hit);
   Options clearance = with_curves();
   clearance.tolerances.clearance_mm = 25;
   const Pair p = test::only(near, clearance);
@@ -70,17 +70,17 @@ TEST(Curves, ClassesFollowTheThresholds) {
 }
 
 TEST(Curves, ALineInsideIsInside) {
-  expect(judged(cube_and_line({{300, 500, 500}, {700, 500, 500}, {700, 600, 500}})), Class::hit,
+  expect(evaluated(cube_and_line({{300, 500, 500}, {700, 500, 500}, {700, 600, 500}})), Class::hit,
          Relation::b_in_a, -500, 10.1);
   // Ending on the skin it is not wholly inside.
-  EXPECT_EQ(judged(cube_and_line({{0, 500, 500}, {700, 500, 500}})).relation, Relation::cross);
+  EXPECT_EQ(evaluated(cube_and_line({{0, 500, 500}, {700, 500, 500}})).relation, Relation::cross);
 }
 
 TEST(Curves, APipesOwnCentreLineInAnotherObject) {
   ClashModel m;
   m.object("pipe").body(geometry::Primitive{geometry::CylinderPrimitive{50, 2000}});
   m.object("line").body(geometry::Primitive{geometry::LinePrimitive{1, 2000}});
-  const Pair p = judged(m);
+  const Pair p = evaluated(m);
   expect(p, Class::hit, Relation::cross, -50, 0.001);
   EXPECT_EQ(p.flags, 0);
   EXPECT_LE(p.d_upper_mm - p.d_lower_mm, 0.001);
@@ -91,7 +91,7 @@ TEST(Curves, ThinPlatesAreHitByTheCapLikeAnythingElse) {
   m.box("plate", {0, 0, 0}, {1000, 1000, 1.5})
       .object("line")
       .body(chain({{500, 500, -100}, {500, 500, 100}}));
-  expect(judged(m), Class::hit, Relation::cross, -0.75, 0.01);
+  expect(evaluated(m), Class::hit, Relation::cross, -0.75, 0.01);
 }
 
 /// Two triangles without thickness.
@@ -103,7 +103,7 @@ TEST(Curves, ALineThroughASheetCountsToTheNearestRimOrEnd) {
   const auto through = [](const std::vector<Vec3d>& points) {
     ClashModel m;
     m.object("sheet").body(sheet()).object("line").body(chain(points));
-    return judged(m);
+    return evaluated(m);
   };
   const Pair rim = through({{300, 200, -500}, {300, 200, 900}});
   expect(rim, Class::hit, Relation::cross, -200);
@@ -126,7 +126,7 @@ TEST(Curves, LinesAmongThemselvesTouchAtMost) {
   const auto lines = [](const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
     ClashModel m;
     m.object("a").body(chain(a)).object("b").body(chain(b));
-    return judged(m);
+    return evaluated(m);
   };
   expect(lines({{0, 0, 0}, {100, 0, 0}}, {{50, -50, 0}, {50, 50, 0}}), Class::contact,
          Relation::abut_outside, 0);
@@ -173,7 +173,7 @@ TEST(Curves, WhichIsCalledAMirrorsTheAnswer) {
   const std::vector<Vec3d> points{{-500, 310, 400}, {700, 290, 350}, {650, 900, 1400}};
   ClashModel line_first;
   line_first.object("a").body(chain(points)).box("cube", {0, 0, 0}, {1000, 1000, 1000});
-  const Pair p = judged(cube_and_line(points)), q = judged(line_first);
+  const Pair p = evaluated(cube_and_line(points)), q = evaluated(line_first);
   EXPECT_EQ(p.d_mm, q.d_mm);
   EXPECT_EQ(p.d_lower_mm, q.d_lower_mm);
   EXPECT_EQ(p.d_upper_mm, q.d_upper_mm);

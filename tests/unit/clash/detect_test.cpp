@@ -81,12 +81,12 @@ TEST(Detect, WhatOverlapsWithinTheContactDistanceIsNotApart) {
 }
 
 /// A thousand objects at one place are half a million pairs; the memory ends before a million's do.
-TEST(Detect, MorePairsThanAllowedAreAnErrorThatSaysWhy) {
+TEST(Detect, MorePairsThanAllowedAreAnErrorThatStatesWhy) {
   test::ClashModel m;
   for (int i = 0; i < 30; ++i) m.box("b" + std::to_string(i), {0, 0, 0}, {10, 10, 10});
   const model::Scene scene = make_scene(m.model, {}, {}).value();
   for (const BroadPhase broad_phase : {BroadPhase::tree, BroadPhase::all_pairs}) {
-    const Options options{.engine = {.broad_phase = broad_phase, .most_pairs = 30 * 29 / 2 - 1}};
+    const Options options{.engine = {.broad_phase = broad_phase, .max_pairs = 30 * 29 / 2 - 1}};
     const auto report = detect(scene, one_set(scene), options, {});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::input);
@@ -352,11 +352,11 @@ TEST(Detect, SetsAndTheirOrder) {
   EXPECT_EQ(model::index(x.pairs[1].b), 2U);
 }
 
-TEST(Detect, UnknownSagIsSaidOncePerFile) {
+TEST(Detect, UnknownSagIsStatedOncePerFile) {
   EXPECT_EQ(walls(0, 0).detect().diagnostics.count("unknown-sag"), 1U);
 }
 
-TEST(Detect, StopsWhenAskedTo) {
+TEST(Detect, StopsWhenRequestedTo) {
   const std::stop_source source;
   source.request_stop();
   const ClashModel m = walls(0, 0);

@@ -137,15 +137,16 @@ TEST(Groups, ByWhatTheTwoArePartsOf) {
   const Findings findings =
       findings_of({pair(0, 1), pair(0, 2), pair(0, 3), pair(1, 3), pair(2, 3), pair(1, 4)});
   const auto found = groups(findings, model, {.by = GroupBy::assembly, .sort = SortBy::size});
-  std::vector<std::pair<std::string, std::size_t>> told;
-  for (const Group& group : found) told.emplace_back(group.name, group.results.size());
-  std::ranges::sort(told);
-  EXPECT_EQ(told, (std::vector<std::pair<std::string, std::size_t>>{
-                      {"/P and /Q", 3}, {"/P and u.obj", 1}, {"within /P", 1}, {"within /Q", 1}}));
+  std::vector<std::pair<std::string, std::size_t>> reported;
+  for (const Group& group : found) reported.emplace_back(group.name, group.results.size());
+  std::ranges::sort(reported);
+  EXPECT_EQ(reported,
+            (std::vector<std::pair<std::string, std::size_t>>{
+                {"/P and /Q", 3}, {"/P and u.obj", 1}, {"within /P", 1}, {"within /Q", 1}}));
   EXPECT_EQ(found[0].name, "/P and /Q");
 }
 
-TEST(Groups, ByAssemblyTellNeighboursOfOneNameApart) {
+TEST(Groups, ByAssemblyDistinguishNeighboursOfOneName) {
   model::Model model = named_objects(4);
   const auto add = [&](const char* name, model::GroupId parent) {
     model.groups.push_back({name, parent});
@@ -177,7 +178,7 @@ TEST(Groups, ByAssemblyKeepTheirIds) {
   EXPECT_NE(today[0].id, groups(findings_of({pair(0, 1)}), model, rules)[0].id);
 }
 
-TEST(Groups, OfAnElementAreSplitByPlaceWhereAskedFor) {
+TEST(Groups, OfAnElementAreSplitByPlaceWhereRequested) {
   const Findings findings = findings_of({pair(0, 5, {0, 0, 0}), pair(1, 5, {900, 0, 0}),
                                          pair(2, 5, {1800, 0, 0}), pair(3, 5, {9000, 0, 0})});
   const model::Model model = named_objects(6);

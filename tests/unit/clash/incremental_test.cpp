@@ -155,7 +155,7 @@ std::vector<Mutation> changes_of_settings() {
           {"volumes", [](RuledCubes& t) { t.options.engine.volumes = Volumes::on; }},
           {"curves", [](RuledCubes& t) { t.options.engine.curves = Curves::on; }},
           {"contacts", [](RuledCubes& t) { t.options.engine.contacts = Contacts::count; }},
-          {"regions", [](RuledCubes& t) { t.options.engine.most_regions = 3; }},
+          {"regions", [](RuledCubes& t) { t.options.engine.max_regions = 3; }},
           {"relations", [](RuledCubes& t) { t.options.reporting.relations = {Relation::cross}; }},
           {"least volume", [](RuledCubes& t) { t.options.reporting.min_volume_mm3 = 3; }},
           {"name of a set", [](RuledCubes& t) { t.sets.name_a = "x"; }},

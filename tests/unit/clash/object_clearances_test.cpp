@@ -156,7 +156,7 @@ TEST(ObjectClearances, AnyTeamAndBroadPhaseGiveTheSame) {
   }
 }
 
-TEST(ObjectClearances, EqualPairsOfUnequalClearancesAreToldApart) {
+TEST(ObjectClearances, EqualPairsOfUnequalClearancesAreDistinguished) {
   // Two pairs of one shape, equally far apart; the objects of the second add to their clearance.
   ClashModel m;
   m.object("a").body(test::box_mesh({0, 0, 0}, {100, 100, 100}));

@@ -58,7 +58,7 @@ TriangleMesh cube_at(const Vec3d& centre, double half) {
 }
 
 /// What a run with the two in either order says; the same, and the same where both are turned.
-bool told(const TriangleMesh& around, const TriangleMesh& within) {
+bool reported(const TriangleMesh& around, const TriangleMesh& within) {
   Draw draw(11);
   bool first = false;
   for (int i = 0; i < 4; ++i) {
@@ -73,12 +73,12 @@ bool told(const TriangleMesh& around, const TriangleMesh& within) {
     else
       m.object("b").body(b).object("a").body(a);
     const clash::Report report = m.detect();
-    const bool is_told = !report.not_compared.empty();
-    if (i == 0) first = is_told;
-    EXPECT_EQ(is_told, first);
-    EXPECT_EQ(report.diagnostics.count(kInOpen), is_told ? 1U : 0U);
-    EXPECT_EQ(report.diagnostics.skipped(), is_told ? 1U : 0U);
-    if (!is_told) continue;
+    const bool is_reported = !report.not_compared.empty();
+    if (i == 0) first = is_reported;
+    EXPECT_EQ(is_reported, first);
+    EXPECT_EQ(report.diagnostics.count(kInOpen), is_reported ? 1U : 0U);
+    EXPECT_EQ(report.diagnostics.skipped(), is_reported ? 1U : 0U);
+    if (!is_reported) continue;
     EXPECT_EQ(report.not_compared.size(), 1U);
     EXPECT_EQ(report.not_compared[0].code, kInOpen);
     EXPECT_TRUE(report.not_compared[0].b.has_value());
@@ -91,10 +91,10 @@ TEST(OpenSurfaces, ALidThatStandsOff) {
   for (const double gap : {0.05, 0.5, 3.0})
     for (const double size : {600.0, 2000.0}) {
       const TriangleMesh box = lid_off(1000, size, 800, gap);
-      EXPECT_TRUE(told(box, cube_at({0, 0, 0}, 100)));
-      EXPECT_TRUE(told(box, cube_at({300, 100, -250}, 50)));
-      EXPECT_FALSE(told(box, cube_at({0, 0, 900}, 50)));
-      EXPECT_FALSE(told(box, cube_at({900, 0, 0}, 50)));
+      EXPECT_TRUE(reported(box, cube_at({0, 0, 0}, 100)));
+      EXPECT_TRUE(reported(box, cube_at({300, 100, -250}, 50)));
+      EXPECT_FALSE(reported(box, cube_at({0, 0, 900}, 50)));
+      EXPECT_FALSE(reported(box, cube_at({900, 0, 0}, 50)));
     }
 }
 
@@ -104,8 +104,8 @@ TEST(OpenSurfaces, AFacetTooFew) {
     for (std::size_t t = 0; t < body.mesh.triangles.size(); t += 7) {
       TriangleMesh mesh = body.mesh;
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      EXPECT_TRUE(told(mesh, cube_at({0, 0, 300}, 60)));
-      EXPECT_FALSE(told(mesh, cube_at({0, 0, 700}, 60)));
+      EXPECT_TRUE(reported(mesh, cube_at({0, 0, 300}, 60)));
+      EXPECT_FALSE(reported(mesh, cube_at({0, 0, 700}, 60)));
     }
   }
 }
@@ -118,8 +118,8 @@ TEST(OpenSurfaces, APieceOfAFaceTooFew) {
     for (std::size_t t = 0; t < box.triangles.size(); ++t) {
       TriangleMesh mesh = box;
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      EXPECT_TRUE(told(mesh, cube_at({0, 0, 0}, 30))) << t;
-      EXPECT_FALSE(told(mesh, cube_at({0, 0, 900}, 30))) << t;
+      EXPECT_TRUE(reported(mesh, cube_at({0, 0, 0}, 30))) << t;
+      EXPECT_FALSE(reported(mesh, cube_at({0, 0, 900}, 30))) << t;
     }
   }
   for (const std::uint32_t sectors : {3U, 4U, 6U, 12U}) {
@@ -127,7 +127,7 @@ TEST(OpenSurfaces, APieceOfAFaceTooFew) {
     for (std::size_t t = 0; t < body.mesh.triangles.size(); ++t) {
       TriangleMesh mesh = body.mesh;
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      EXPECT_TRUE(told(mesh, cube_at({0, 0, 300}, 20))) << sectors << ' ' << t;
+      EXPECT_TRUE(reported(mesh, cube_at({0, 0, 300}, 20))) << sectors << ' ' << t;
     }
   }
 }
@@ -151,15 +151,15 @@ TriangleMesh flanged(double x, double y, double z, double flange) {
 
 TEST(OpenSurfaces, TanksWithFlangesAreMeant) {
   for (const double flange : {20.0, 80.0, -20.0, -80.0}) {
-    EXPECT_FALSE(told(flanged(1000, 1000, 1000, flange), cube_at({0, 0, -200}, 100))) << flange;
-    EXPECT_FALSE(told(flanged(1500, 700, 900, flange), cube_at({0, 0, -200}, 100))) << flange;
+    EXPECT_FALSE(reported(flanged(1000, 1000, 1000, flange), cube_at({0, 0, -200}, 100))) << flange;
+    EXPECT_FALSE(reported(flanged(1500, 700, 900, flange), cube_at({0, 0, -200}, 100))) << flange;
   }
 }
 
 TEST(OpenSurfaces, TanksTraysAndDecksAreMeant) {
   for (const double depth : {100.0, 500.0, 1000.0, 3000.0})
     for (const double height : {-0.4, 0.0, 0.3})
-      EXPECT_FALSE(told(lidless(1000, 1000, depth), cube_at({0, 0, height * depth}, 20)));
+      EXPECT_FALSE(reported(lidless(1000, 1000, depth), cube_at({0, 0, height * depth}, 20)));
 }
 
 /// A box of `cells` by as many squares a side, without one triangle of `left_out`.
@@ -224,8 +224,8 @@ TEST(OpenSurfaces, WhatASkinHasBesidesMakesNoDifference) {
                 : kind == 5 ? 0.5
                             : 0.1 * static_cast<double>(draw.below(2)),
                 draw);
-      EXPECT_TRUE(told(mesh, cube_at({0.25 * s, 0.4 * s, 0.3 * s}, 0.1 * s)));
-      EXPECT_FALSE(told(mesh, cube_at({1.2 * s, 0.4 * s, 0.3 * s}, 0.05 * s)));
+      EXPECT_TRUE(reported(mesh, cube_at({0.25 * s, 0.4 * s, 0.3 * s}, 0.1 * s)));
+      EXPECT_FALSE(reported(mesh, cube_at({1.2 * s, 0.4 * s, 0.3 * s}, 0.05 * s)));
     }
   }
 }
@@ -239,7 +239,7 @@ TEST(OpenSurfaces, WhatIsInABoreIsOutside) {
     mesh.triangles.erase(mesh.triangles.begin() +
                          static_cast<std::ptrdiff_t>(draw.below(mesh.triangles.size())));
     turn_some(mesh, 0.1 * static_cast<double>(draw.below(3)), draw);
-    EXPECT_FALSE(told(mesh, cube_at({0, 0, draw.between(-500, 500)}, 30)));
+    EXPECT_FALSE(reported(mesh, cube_at({0, 0, draw.between(-500, 500)}, 30)));
   }
 }
 
@@ -253,8 +253,8 @@ TEST(OpenSurfaces, ARodThroughTheGap) {
     });
   });
   for (const double top : {900.0, 999.0, 1001.0, 1400.0, 9000.0})
-    EXPECT_TRUE(told(mesh, test::box_mesh({380, 380, 200}, {440, 440, top})));
-  EXPECT_FALSE(told(mesh, test::box_mesh({380, 380, 1002}, {440, 440, 1400})));
+    EXPECT_TRUE(reported(mesh, test::box_mesh({380, 380, 200}, {440, 440, top})));
+  EXPECT_FALSE(reported(mesh, test::box_mesh({380, 380, 1002}, {440, 440, 1400})));
 }
 
 /// What is said of a box that stands on the floor of a tank, or on its lid.
@@ -268,7 +268,7 @@ clash::Pair standing(const TriangleMesh& around, double floor) {
   return report.pairs.empty() ? clash::Pair{} : report.pairs[0];
 }
 
-// A touch is told in any case; in what is nearly closed, that it may be more.
+// A touch is reported in any case; in what is nearly closed, that it may be more.
 TEST(OpenSurfaces, WhatStandsOnTheFloorMayBeAHit) {
   for (const std::size_t left_out : {5U, 100U, 300U}) {
     const TriangleMesh mesh = tank(1000, 6, left_out);
@@ -286,7 +286,7 @@ TEST(OpenSurfaces, WhatStandsOnTheFloorMayBeAHit) {
   EXPECT_EQ(standing(open, 0).severest, clash::Class::contact);
 }
 
-TEST(OpenSurfaces, AHitIsTold) {
+TEST(OpenSurfaces, AHitIsReported) {
   ClashModel m;
   m.object("a")
       .body(lid_off(1000, 1000, 1000, 1))

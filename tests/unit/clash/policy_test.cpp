@@ -44,7 +44,7 @@ Report report_of(const ClashModel& m, const Task& run) {
 }
 
 /// "a-b HIT" for each pair.
-std::vector<std::string> told(const ClashModel& m, const Report& report) {
+std::vector<std::string> reported(const ClashModel& m, const Report& report) {
   std::vector<std::string> all;
   for (const Pair& p : report.pairs)
     all.push_back(
@@ -53,7 +53,7 @@ std::vector<std::string> told(const ClashModel& m, const Report& report) {
   return all;
 }
 
-using Told = std::vector<std::string>;
+using Reported = std::vector<std::string>;
 
 std::vector<std::pair<std::string, std::uint64_t>> exempted(const Report& report) {
   std::vector<std::pair<std::string, std::uint64_t>> all;
@@ -94,7 +94,7 @@ TEST(ClashPolicy, ObjectsOfOneLabelAreNoPairAndAreCounted) {
   policy.exemptions = {{"units", SameLabel{{7, 7, kNoLabel, kNoLabel}}}};
   policy.list_exempted = true;
   const Report report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(reported(m, report), (Reported{"b-c HIT", "c-d HIT"}));
   EXPECT_EQ(exempted(report), (Counts{{"units", 1}}));
   ASSERT_EQ(report.exempted_pairs.size(), 1U);
   EXPECT_EQ(index(report.exempted_pairs[0].a), 0U);
@@ -119,7 +119,7 @@ TEST(ClashPolicy, LinkedObjectsAreNoPairInEitherDirection) {
   policy.exemptions = {
       {"joints", Linked{lists({{1}, {2}, {3}, {4}}), lists({{2}, {9}, {9}, {3, 8}})}}};
   const Report report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"b-c HIT"}));
+  EXPECT_EQ(reported(m, report), (Reported{"b-c HIT"}));
   EXPECT_EQ(exempted(report), (Counts{{"joints", 2}}));
 }
 
@@ -191,14 +191,14 @@ TEST(ClashPolicy, AMatrixInOnePassIsTheSameAsATestPerCell) {
         else
           expected.insert(expected.end(), one.pairs.begin(), one.pairs.end());
         if (row == 3 || column == 3) continue;
-        const auto told =
+        const auto reported =
             std::find_if(whole.cells.begin(), whole.cells.end(),
                          [&](const CellReport& c) { return c.a == row && c.b == column; });
-        ASSERT_NE(told, whole.cells.end());
-        EXPECT_EQ(told->checked, cell != Matrix::kNotChecked);
-        EXPECT_EQ(told->hit, told->checked ? one.count_hit : 0);
-        EXPECT_EQ(told->contact, told->checked ? one.count_contact : 0);
-        EXPECT_EQ(told->clearance_violation, told->checked ? one.count_clearance : 0);
+        ASSERT_NE(reported, whole.cells.end());
+        EXPECT_EQ(reported->checked, cell != Matrix::kNotChecked);
+        EXPECT_EQ(reported->hit, reported->checked ? one.count_hit : 0);
+        EXPECT_EQ(reported->contact, reported->checked ? one.count_contact : 0);
+        EXPECT_EQ(reported->clearance_violation, reported->checked ? one.count_clearance : 0);
       }
     std::sort(expected.begin(), expected.end(),
               [](const Pair& x, const Pair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
@@ -274,18 +274,18 @@ void add_body(ClashModel& m, model::Category category, const Vec3d& lo, const Ve
   m.model.bodies.back().category = category;
 }
 
-TEST(ClashPolicy, LevelsSayWhatIsSetAgainstWhat) {
+TEST(ClashPolicy, LevelsStateWhatIsSetAgainstWhat) {
   const ClashModel m = chain();
   Policy policy;
   policy.levels = levels(std::vector{Level::hard, Level::soft, Level::soft, Level::none});
   Report report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(reported(m, report), (Reported{"a-b HIT", "b-c HIT"}));
   EXPECT_EQ(exempted(report), (Counts{{"no obstruction", 1}}));
   EXPECT_EQ(report.pairs[0].level_a, Level::hard);
   EXPECT_EQ(report.pairs[0].level_b, Level::soft);
   policy.levels->left_out[1][1] = "soft against soft";
   report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"a-b HIT"}));
+  EXPECT_EQ(reported(m, report), (Reported{"a-b HIT"}));
   EXPECT_EQ(exempted(report), (Counts{{"no obstruction", 1}, {"soft against soft", 1}}));
 }
 
@@ -301,7 +301,7 @@ TEST(ClashPolicy, ObstructionVolumesAreSoftAndInsulationIsItself) {
   policy.levels = levels(std::vector<Level>(3, Level::hard));
   policy.levels->left_out[2][2] = "insulation against insulation";
   const Report report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"pump-pipe HIT"}));
+  EXPECT_EQ(reported(m, report), (Reported{"pump-pipe HIT"}));
   EXPECT_EQ(report.pairs[0].level_a, Level::soft);
   EXPECT_EQ(report.pairs[0].level_b, Level::insulation);
   EXPECT_EQ(exempted(report),
@@ -321,7 +321,7 @@ TEST(ClashPolicy, AHardHitIsNotHiddenByADeeperOneOfInsulation) {
   EXPECT_EQ(plain.pairs[0].d_mm, -40);
   policy.levels = levels(std::vector<Level>(3, Level::hard));
   const Report report = report_of(m, {{}, {}, policy});
-  ASSERT_EQ(told(m, report), (Told{"beam-pipe HIT", "beam-rope HIT"}));
+  ASSERT_EQ(reported(m, report), (Reported{"beam-pipe HIT", "beam-rope HIT"}));
   EXPECT_EQ(report.pairs[0].d_mm, -5);
   EXPECT_EQ(report.pairs[0].level_b, Level::hard);
   EXPECT_EQ(report.pairs[1].d_mm, -20);
@@ -343,7 +343,7 @@ TEST(ClashPolicy, AllowanceStopsAtItsDepthAndKeepsTheClass) {
   EXPECT_EQ(report_of(m, {{}, {}, policy}).count_hit, 3U);
   policy.allowed[0].max_depth_mm = 10.01;
   report = report_of(m, {{}, {}, policy});
-  EXPECT_EQ(told(m, report), (Told{"a-b HIT by meant", "b-c HIT", "c-d HIT by meant"}));
+  EXPECT_EQ(reported(m, report), (Reported{"a-b HIT by meant", "b-c HIT", "c-d HIT by meant"}));
   EXPECT_EQ(report.count_hit, 1U);
   EXPECT_EQ(report.count_allowed, 2U);
   EXPECT_EQ(report.allowed[0].candidates, 2U);
@@ -354,21 +354,21 @@ TEST(ClashPolicy, AllowanceStopsAtItsDepthAndKeepsTheClass) {
 
 // To the grid step: a depth of just max_depth is allowed and told to be at the limit.
 TEST(ClashPolicy, TheGreatestAllowedDepthIsAllowedItself) {
-  const auto run = [](double depth_mm, double most_mm) {
+  const auto run = [](double depth_mm, double max_mm) {
     ClashModel m;
     m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {100 - depth_mm, 0, 0}, {200, 100, 100});
     Policy policy;
     policy.allowed = {meant(2)};
-    policy.allowed[0].max_depth_mm = most_mm;
+    policy.allowed[0].max_depth_mm = max_mm;
     const Report report = report_of(m, {{}, {}, policy});
     const Pair& pair = report.pairs.at(0);
     return std::pair(pair.allowed >= 0, (pair.flags & kBorderline) != 0);
   };
-  for (const double most_mm : {10.0, 0.001, 2.5, 48.999}) {
-    EXPECT_EQ(run(most_mm, most_mm), std::pair(true, true)) << most_mm;
-    EXPECT_EQ(run(most_mm + 0.001, most_mm), std::pair(false, false)) << most_mm;
-    if (most_mm == 0.001) continue;  // a micrometre less is a touch
-    EXPECT_EQ(run(most_mm - 0.001, most_mm), std::pair(true, false)) << most_mm;
+  for (const double max_mm : {10.0, 0.001, 2.5, 48.999}) {
+    EXPECT_EQ(run(max_mm, max_mm), std::pair(true, true)) << max_mm;
+    EXPECT_EQ(run(max_mm + 0.001, max_mm), std::pair(false, false)) << max_mm;
+    if (max_mm == 0.001) continue;  // a micrometre less is a touch
+    EXPECT_EQ(run(max_mm - 0.001, max_mm), std::pair(true, false)) << max_mm;
   }
 }
 
@@ -379,8 +379,8 @@ TEST(ClashPolicy, ContactsAndClearancesAreMeantWithoutADepth) {
   m.box("c", {210, 0, 0}, {300, 100, 100});
   Policy policy;
   policy.allowed = {meant(3)};
-  EXPECT_EQ(told(m, report_of(m, {{}, {.tolerances = {.clearance_mm = 25}}, policy})),
-            (Told{"a-b CONTACT by meant", "b-c CLEARANCE_VIOLATION by meant"}));
+  EXPECT_EQ(reported(m, report_of(m, {{}, {.tolerances = {.clearance_mm = 25}}, policy})),
+            (Reported{"a-b CONTACT by meant", "b-c CLEARANCE_VIOLATION by meant"}));
 }
 
 TEST(ClashPolicy, RegionAndCavityPlanesLimitThePlace) {
@@ -390,15 +390,15 @@ TEST(ClashPolicy, RegionAndCavityPlanesLimitThePlace) {
     policy.allowed = {meant(4)};
     policy.allowed[0].max_depth_mm = 50;
     limit(policy.allowed[0]);
-    return told(m, report_of(m, {{}, {}, policy}));
+    return reported(m, report_of(m, {{}, {}, policy}));
   };
   EXPECT_EQ(run([](Allowed& a) { a.region_mm = {{80, 0, 0}, {110, 100, 100}}; }),
-            (Told{"a-b HIT by meant", "b-c HIT", "c-d HIT"}));
+            (Reported{"a-b HIT by meant", "b-c HIT", "c-d HIT"}));
   EXPECT_EQ(run([](Allowed& a) { a.cavity = {{{180, 0, 0}, {1, 0, 0}}}; }),
-            (Told{"a-b HIT", "b-c HIT by meant", "c-d HIT by meant"}));
+            (Reported{"a-b HIT", "b-c HIT by meant", "c-d HIT by meant"}));
   EXPECT_EQ(
       run([](Allowed& a) { a.cavity = {{{180, 0, 0}, {1, 0, 0}}, {{200, 0, 0}, {-3, 0, 0}}}; }),
-      (Told{"a-b HIT", "b-c HIT by meant", "c-d HIT"}));
+      (Reported{"a-b HIT", "b-c HIT by meant", "c-d HIT"}));
 }
 
 TEST(ClashPolicy, TheFirstRuleThatAllowsIsNamed) {
@@ -410,8 +410,8 @@ TEST(ClashPolicy, TheFirstRuleThatAllowsIsNamed) {
   policy.allowed[1].max_depth_mm = 100;
   policy.allowed[2].rule = "deeper";
   policy.allowed[2].max_depth_mm = 1000;
-  EXPECT_EQ(told(m, report_of(m, {{}, {}, policy})),
-            (Told{"a-b HIT by deep", "b-c HIT by deep", "c-d HIT by deep"}));
+  EXPECT_EQ(reported(m, report_of(m, {{}, {}, policy})),
+            (Reported{"a-b HIT by deep", "b-c HIT by deep", "c-d HIT by deep"}));
 }
 
 /// A plate with a part in its sleeve at x < 200 and others beyond.
@@ -432,13 +432,13 @@ TEST(ClashPolicy, WhatIsMeantHidesNothingElseOfThePair) {
     const ClashModel m = sleeve(lo, hi);
     const Report report = report_of(m, {{}, options, policy});
     EXPECT_EQ(report.pairs[0].flags, 0) << "nothing is uncertain here";
-    return told(m, report);
+    return reported(m, report);
   };
-  EXPECT_EQ(run({500, 500, 19.5}, {600, 600, 80}), (Told{"deck-pipe CONTACT"}));
-  EXPECT_EQ(run({500, 500, 15}, {600, 600, 80}), (Told{"deck-pipe HIT"}));
-  EXPECT_EQ(run({500, 500, 30}, {600, 600, 80}), (Told{"deck-pipe CLEARANCE_VIOLATION"}));
-  EXPECT_EQ(run({500, 500, 60}, {600, 600, 80}), (Told{"deck-pipe HIT by meant"}));
-  EXPECT_EQ(run({150, 150, 15}, {160, 160, 80}), (Told{"deck-pipe HIT by meant"}));
+  EXPECT_EQ(run({500, 500, 19.5}, {600, 600, 80}), (Reported{"deck-pipe CONTACT"}));
+  EXPECT_EQ(run({500, 500, 15}, {600, 600, 80}), (Reported{"deck-pipe HIT"}));
+  EXPECT_EQ(run({500, 500, 30}, {600, 600, 80}), (Reported{"deck-pipe CLEARANCE_VIOLATION"}));
+  EXPECT_EQ(run({500, 500, 60}, {600, 600, 80}), (Reported{"deck-pipe HIT by meant"}));
+  EXPECT_EQ(run({150, 150, 15}, {160, 160, 80}), (Reported{"deck-pipe HIT by meant"}));
 }
 
 // The same of one part with two legs: the left one is meant, the right one near the bar or in it.
@@ -455,12 +455,12 @@ TEST(ClashPolicy, WhatIsMeantInOnePlaceHidesNoOther) {
     m.object("u").body(test::voxel_mesh(u, 50));
     m.box("bar", {40, 100, 10}, {end, 120, 30});
     model::finish(m.model);
-    return told(m, report_of(m, {{}, options, policy}));
+    return reported(m, report_of(m, {{}, options, policy}));
   };
-  EXPECT_EQ(run(120), (Told{"bar-u HIT by meant"}));
-  EXPECT_EQ(run(148.5), (Told{"bar-u CLEARANCE_VIOLATION"}));
-  EXPECT_EQ(run(149.5), (Told{"bar-u CONTACT"}));
-  EXPECT_EQ(run(158), (Told{"bar-u HIT"}));
+  EXPECT_EQ(run(120), (Reported{"bar-u HIT by meant"}));
+  EXPECT_EQ(run(148.5), (Reported{"bar-u CLEARANCE_VIOLATION"}));
+  EXPECT_EQ(run(149.5), (Reported{"bar-u CONTACT"}));
+  EXPECT_EQ(run(158), (Reported{"bar-u HIT"}));
 }
 
 TEST(ClashPolicy, PartsThatMayMeetBeyondWhatIsAllowedAreUncertain) {

@@ -77,7 +77,7 @@ TEST(RegionsTest, FourFeetAreFourContacts) {
 
 TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
   Options options;
-  options.engine.most_regions = 2;
+  options.engine.max_regions = 2;
   const Report report = table_on_deck(5).detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].cls, Class::hit);
@@ -88,7 +88,7 @@ TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
   EXPECT_EQ(report.regions[0].d_mm, report.pairs[0].d_mm);
   EXPECT_EQ(report.regions[0].point_mm, report.pairs[0].point_mm);
   EXPECT_EQ(report.regions[1].cls, Class::contact);
-  options.engine.most_regions = 0;
+  options.engine.max_regions = 0;
   const Report without = table_on_deck(5).detect(options);
   EXPECT_EQ(without.pairs[0].regions, 0U);
   EXPECT_TRUE(without.regions.empty());
@@ -96,13 +96,13 @@ TEST(RegionsTest, TheWorstComesFirstAndListsEndWhileCountsDoNot) {
 }
 
 /// A count that is no count would be worse than none.
-TEST(RegionsTest, TheBaselineTellsNoPlacesApart) {
+TEST(RegionsTest, TheBaselineDistinguishesNoPlaces) {
   Options options;
   options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
   const Report report = table_on_deck(5).detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].regions, 0U);
-  EXPECT_EQ(report.options.engine.most_regions, 0U);
+  EXPECT_EQ(report.options.engine.max_regions, 0U);
 }
 
 TEST(RegionsTest, OneMeshThatMeetsTwoBarsHasADepthAtEach) {
@@ -240,7 +240,7 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   EXPECT_EQ(all.pairs[0].allowed_regions_listed(options), 2U);
   // The count does not depend on what is listed, nor on whether places are.
   for (const std::uint64_t most : {1U, 0U}) {
-    options.engine.most_regions = most;
+    options.engine.max_regions = most;
     const Report some = detect(scene, one_set(scene), options, policy, {}).value();
     EXPECT_EQ(some.pairs[0].allowed_regions, 2U);
     EXPECT_EQ(some.pairs[0].regions, most);
@@ -249,7 +249,7 @@ TEST(RegionsTest, PlacesThatRulesAllowAreCountedByRule) {
   }
   // The hash covers them: another rule, another hash.
   policy.allowed[0].rule = "renamed";
-  options.engine.most_regions = 8;
+  options.engine.max_regions = 8;
   const Report renamed = detect(scene, one_set(scene), options, policy, {}).value();
   EXPECT_NE(renamed.hash, all.hash);
   // An allowed hit besides a gap that is none: the result is the gap, the hit is counted.
@@ -377,7 +377,7 @@ auto answers(const Report& report) {
 
 TEST(RegionsTest, ListingPlacesChangesNoAnswer) {
   Options without;
-  without.engine.most_regions = 0;
+  without.engine.max_regions = 0;
   for (const double sunk : {0.0, 5.0}) {
     const ClashModel table = table_on_deck(sunk);
     EXPECT_EQ(answers(table.detect()), answers(table.detect(without)));

@@ -98,7 +98,7 @@ TEST(SourceErrors, WhatTheSnapDidNotMoveKeepsItsBracket) {
 }
 
 /// With tolerances of 0 the grid itself is asked, also of what the snap moved.
-TEST(SourceErrors, TolerancesOfZeroAreAskedOfTheGrid) {
+TEST(SourceErrors, TolerancesOfZeroAreTakenFromTheGrid) {
   const auto p = [](double gap) {
     ClashModel m;
     m.box("a", {0, 0, 0.0001}, {100, 100, 100});
@@ -151,7 +151,7 @@ TEST(SourceErrors, AStepOfCoarseNumbersIsAContactAndUncertain) {
 
 /// Numbers finer than the tolerances say what they say, and so does a contact distance that is
 /// given.
-TEST(SourceErrors, WhatIsNoCoarserThanATouchIsJudgedAsItStands) {
+TEST(SourceErrors, WhatIsNoCoarserThanATouchIsClassifiedAsItStands) {
   EXPECT_EQ(at_steps(-1, 0.25, false).flags, 0);
   EXPECT_NEAR(at_steps(-1, 0.25, false).d_mm, -0.25, 1e-3);
   EXPECT_EQ(name(at_steps(-1, 3.90625, false, 0.01).cls), name(Class::hit));

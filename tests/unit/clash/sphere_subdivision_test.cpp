@@ -68,7 +68,7 @@ TEST(SphereSubdivision, GivesUpWithAFlagAndNeverInSilence) {
   m.box("a", {0, 0, 0}, {10'000, 10'000, 10}).box("b", {0, 0, 12}, {10'000, 10'000, 22});
   Options options;
   options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
-  options.engine.most_spheres = 5'000;
+  options.engine.max_spheres = 5'000;
   options.tolerances.clearance_mm = 3;
   const Report report = m.detect(options);
   ASSERT_EQ(report.pairs.size(), 1U);

@@ -20,7 +20,7 @@ struct File {
 };
 
 /// What is told where each file holds one box of its size.
-Diagnostics told(const std::vector<File>& files, const Vec3d& at = {}) {
+Diagnostics reported(const std::vector<File>& files, const Vec3d& at = {}) {
   model::Model model;
   for (const File& file : files) {
     const auto number = static_cast<std::uint32_t>(model.files.size());
@@ -43,12 +43,12 @@ Diagnostics told(const std::vector<File>& files, const Vec3d& at = {}) {
 
 /// How often units are doubted.
 std::uint64_t doubts(const std::vector<File>& files, const Vec3d& at = {}) {
-  return told(files, at).count("unit-doubtful");
+  return reported(files, at).count("unit-doubtful");
 }
 
 /// The words of the only doubt.
 std::string doubt(const std::vector<File>& files) {
-  const Diagnostics diagnostics = told(files);
+  const Diagnostics diagnostics = reported(files);
   EXPECT_EQ(diagnostics.kept().size(), 1U);
   return diagnostics.kept().empty() ? "" : diagnostics.kept().front().message;
 }
@@ -57,7 +57,7 @@ Vec3d scaled(const Vec3d& v, double factor) { return v * factor; }
 
 constexpr Vec3d kPart{120, 80, 35};
 
-TEST(DoubtfulUnits, FactorsBetweenUnitsAreToldWhicheverFileIsFirst) {
+TEST(DoubtfulUnits, FactorsBetweenUnitsAreReportedWhicheverFileIsFirst) {
   for (const double factor : {1000.0, 25.4, 1000 / 25.4, 304.8, 940.0, 1080.0, 25.5}) {
     const File large{kPart}, small{scaled(kPart, 1 / factor)};
     EXPECT_EQ(doubts({large, small}), 1U) << factor;
@@ -80,7 +80,7 @@ TEST(DoubtfulUnits, OneAxisThatDiffersIsEnoughToTrust) {
   }
 }
 
-TEST(DoubtfulUnits, AUnitThatSomebodySaysIsTrustedBesideOneThatIsKnown) {
+TEST(DoubtfulUnits, AUnitThatSomebodyStatesIsTrustedBesideOneThatIsKnown) {
   const Vec3d small = scaled(kPart, 0.001);
   for (const char* known : {"mm (given)", "m (stated)"}) {
     EXPECT_EQ(doubts({{kPart, known}, {small}}), 1U) << known;
@@ -92,7 +92,7 @@ TEST(DoubtfulUnits, AUnitThatSomebodySaysIsTrustedBesideOneThatIsKnown) {
   }
 }
 
-TEST(DoubtfulUnits, WhatBothFormatsStateIsDoubtedUntilSomebodySaysAUnit) {
+TEST(DoubtfulUnits, WhatBothFormatsStateIsDoubtedUntilSomebodyStatesAUnit) {
   // As a glTF file in millimetres beside an RVM file: both formats prescribe metres.
   const File plant{scaled(kPart, 0.001), "m (stated)"}, model{kPart, "m (stated)"};
   EXPECT_EQ(doubts({plant, model}), 1U);
@@ -117,7 +117,7 @@ TEST(DoubtfulUnits, WhicheverAxisIsUp) {
   EXPECT_EQ(doubts({{kPart, "m (stated)"}, {small}}), 1U);
 }
 
-TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineSaysNothing) {
+TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineStatesNothing) {
   // A plate of 0.4 mm in metres has no thickness on the grid.
   EXPECT_EQ(doubts({{{200, 100, 0.4}}, {{0.2, 0.1, 0.0004}}}), 1U);
   EXPECT_EQ(doubts({{{200, 100, 30}}, {{0.2, 0.1, 0}}}), 0U);
@@ -125,7 +125,7 @@ TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineSaysNothing) {
 }
 
 // Blocks of bodies have boxes of their own: the extents are those of all.
-TEST(DoubtfulUnits, FilesOfManyBodiesAreToldForAnyTeam) {
+TEST(DoubtfulUnits, FilesOfManyBodiesAreReportedForAnyTeam) {
   constexpr std::uint32_t kMany = 10'000;
   model::Model model;
   for (const double scale : {1.0, 0.001}) {
@@ -153,7 +153,7 @@ TEST(DoubtfulUnits, FilesOfManyBodiesAreToldForAnyTeam) {
   }
 }
 
-TEST(DoubtfulUnits, EachPairOfFilesIsTold) {
+TEST(DoubtfulUnits, EachPairOfFilesIsReported) {
   const File small{scaled(kPart, 0.001)};
   EXPECT_EQ(doubts({{kPart}, {kPart}, small}), 2U);
   EXPECT_EQ(doubts({small}), 0U);

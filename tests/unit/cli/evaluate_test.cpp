@@ -378,16 +378,15 @@ TEST(Evaluate, AStudyRunsUnderItsConditions) {
   contender.threads = 3;
   contender.compute = [](const parallel::Context& context) -> Result<Computed> {
     EXPECT_EQ(context.distribution, parallel::Distribution::equal_ranges);
-    EXPECT_EQ(context.least_chunk, 4U);
+    EXPECT_EQ(context.min_chunk, 4U);
     const Status status =
         parallel::for_each(context, {.name = "loop", .n = 300}, [](std::size_t) {});
     if (!status) return status.error();
     return Computed{{{"tests", 7}}, [] { return std::string("a"); }, {}};
   };
-  const auto run = run_for_study(input, contender,
-                                 {.distribution = parallel::Distribution::equal_ranges,
-                                  .least_chunk = 4,
-                                  .with_regions = true});
+  const auto run = run_for_study(
+      input, contender,
+      {.distribution = parallel::Distribution::equal_ranges, .min_chunk = 4, .with_regions = true});
   ASSERT_TRUE(run.has_value()) << run.error().text();
   EXPECT_EQ(region_named(run->regions, "loop").busy_s.size(), 3U);
   EXPECT_EQ(run->counter("tests"), "7");
@@ -407,7 +406,7 @@ TEST(Evaluate, AChartOfNothingIsStillAChart) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(Evaluate, AResultThatDiffersIsTold) {
+TEST(Evaluate, AResultThatDiffersIsReported) {
   EvaluationSettings settings;
   settings.threads = {1};
   settings.repeat = 1;
@@ -439,7 +438,7 @@ SheetPixels sheet_of_lines(double right_mm) {
   return {sheet, ink};
 }
 
-TEST(Evaluate, PixelsTellWhatOfADifferenceAnybodyCouldSee) {
+TEST(Evaluate, PixelsShowWhatOfADifferenceAnybodyCouldSee) {
   const SheetPixels sheet = sheet_of_lines(120);
   // 100 mm at 4096 pixels for 297 mm, and each line's first pixel.
   EXPECT_NEAR(static_cast<double>(sheet.inked()), 2 * 100 * 4096.0 / 297 + 2, 4);
@@ -479,7 +478,7 @@ TEST(Evaluate, ADrawingThatDiffersIsComparedPixelByPixel) {
       << stage->differences[1];
 }
 
-TEST(Evaluate, AContenderWithALimitIsStoppedAndSaidToBe) {
+TEST(Evaluate, AContenderWithALimitIsStoppedAndReportedToBe) {
   EvaluationSettings settings;
   settings.threads = {1};
   settings.repeat = 1;
@@ -527,7 +526,7 @@ TEST(Evaluate, ALimitEndsSphereSubdivisionWithinAPair) {
   clash::Options options{.tolerances = {.touch_gap_mm = 0.002, .touch_overlap_mm = 0.002}};
   options.tolerances.clearance_mm = 5;
   options.engine.narrow_phase = clash::NarrowPhase::sphere_subdivision;
-  options.engine.most_spheres = std::uint64_t{1} << 50U;
+  options.engine.max_spheres = std::uint64_t{1} << 50U;
   const TimeLimit limit({}, 0.05);
   const auto report =
       clash::detect(*scene, clash::one_set(*scene), options, {.stop = limit.token()});
@@ -549,9 +548,9 @@ TEST(Evaluate, AFailureOfAContenderThatMustEndIsTheEvaluations) {
 TEST(Evaluate, EveryViewIsOneThatCanBeDrawn) {
   const geometry::Box3l box{{0, -5'000'000, 0}, {90'000'000, 5'000'000, 20'000'000}};
   for (const ViewCase& view : view_cases()) {
-    const hlr::View seen = view_of(view, box);
-    EXPECT_NE(seen.direction, (geometry::Vec3l{0, 0, 0})) << view.name;
-    EXPECT_TRUE(!seen.limits || !seen.limits->empty()) << view.name;
+    const hlr::View hlr_view = view_of(view, box);
+    EXPECT_NE(hlr_view.direction, (geometry::Vec3l{0, 0, 0})) << view.name;
+    EXPECT_TRUE(!hlr_view.limits || !hlr_view.limits->empty()) << view.name;
   }
   EXPECT_EQ(view_cases().size(), 13U);
   EXPECT_EQ(ship_cases().size(), 4U);

@@ -15,10 +15,10 @@ struct Units {
   std::string error;
 };
 
-Units units(const std::vector<std::string>& files, const std::vector<std::string>& said) {
+Units units(const std::vector<std::string>& files, const std::vector<std::string>& stated) {
   InputOptions options;
   options.files = files;
-  options.units = said;
+  options.units = stated;
   const auto read = files_to_read(options);
   if (!read) return {{}, read.error().text()};
   Units found;
@@ -36,7 +36,7 @@ TEST(FilesToRead, AUnitIsOfAllFilesOrOfOne) {
   EXPECT_EQ(units(files, {"a.stl=m", "b.stl=in"}).mm, (Numbers{1000, 25.4}));
 }
 
-TEST(FilesToRead, WhatIsSaidOfOneGoesBeforeWhatIsSaidOfAll) {
+TEST(FilesToRead, WhatIsStatedOfOneGoesBeforeWhatIsStatedOfAll) {
   EXPECT_EQ(units({"a.stl", "b.stl"}, {"a.stl=m", "in"}).mm, (Numbers{1000, 25.4}));
   EXPECT_EQ(units({"a.stl", "b.stl"}, {"in", "a.stl=m"}).mm, (Numbers{1000, 25.4}));
 }
@@ -56,10 +56,10 @@ TEST(FilesToRead, NamesMayHoldEqualsSigns) {
   EXPECT_EQ(units({"rev=2/a=b.stl", "b.stl"}, {"rev=2/a=b.stl=m"}).mm, (Numbers{1000, 0}));
 }
 
-TEST(FilesToRead, WhatIsSaidInVainIsAnErrorThatSaysWhat) {
+TEST(FilesToRead, WhatIsStatedInVainIsAnErrorThatStatesWhat) {
   const std::vector<std::string> files{"x/a.stl", "y/a.stl"};
-  const auto expect_error = [&](const std::vector<std::string>& said, const std::string& part) {
-    const std::string error = units(files, said).error;
+  const auto expect_error = [&](const std::vector<std::string>& stated, const std::string& part) {
+    const std::string error = units(files, stated).error;
     EXPECT_NE(error.find(part), std::string::npos) << error;
     EXPECT_NE(error.find("--unit"), std::string::npos) << error;
   };
@@ -72,7 +72,7 @@ TEST(FilesToRead, WhatIsSaidInVainIsAnErrorThatSaysWhat) {
   expect_error({"x/a.stl=m", "./x/a.stl=mm"}, "more than once for x/a.stl");
 }
 
-TEST(FilesToRead, TheUpwardAxisIsSaidAlike) {
+TEST(FilesToRead, TheUpwardAxisIsStatedAlike) {
   InputOptions options;
   options.files = {"a.stl", "b.stl", "c.stl"};
   options.up_axes = {"y", "b.stl=x", "c.stl=z"};

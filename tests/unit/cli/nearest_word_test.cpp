@@ -26,7 +26,7 @@ TEST(NearestWord, NamesNoneThatIsNotNear) {
   EXPECT_EQ(nearest_word("clash", {}), "");
 }
 
-TEST(NearestWord, AsksOrSaysTheOther) {
+TEST(NearestWord, RequestsOrStatesTheOther) {
   EXPECT_EQ(did_you_mean("inf", kVerbs, "no"), "did you mean 'info'?");
   EXPECT_EQ(did_you_mean("hatch", kVerbs, "no"), "no");
 }

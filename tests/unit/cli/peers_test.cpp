@@ -73,12 +73,12 @@ class FakePeers : public testing::Test {
   void play_rows(const std::vector<PeerRow>& rows, const std::string& then = "exit 0") {
     play("cat > \"$json\" <<'END'\n" + peer_rows_json(rows) + "END\n" + then);
   }
-  [[nodiscard]] Result<PeerRecord> ask(const std::stop_token& stop = {}) const {
+  [[nodiscard]] Result<PeerRecord> run(const std::stop_token& stop = {}) const {
     return run_peer(peer_cases().front(), programs_, 0.001, stop);
   }
   /// Returns the only row.
   [[nodiscard]] PeerRow only_row() const {
-    const Result<PeerRecord> record = ask();
+    const Result<PeerRecord> record = run();
     if (!record || record->rows.size() != 1) {
       ADD_FAILURE() << "not one row";
       return {};
@@ -92,7 +92,7 @@ class FakePeers : public testing::Test {
 
 TEST_F(FakePeers, RowsComeBackAsTheyWereWritten) {
   play_rows({measured_row(), measured_row()});
-  const Result<PeerRecord> record = ask();
+  const Result<PeerRecord> record = run();
   ASSERT_TRUE(record.has_value());
   EXPECT_EQ(record->name, peer_cases().front().name);
   EXPECT_EQ(peer_rows_json(record->rows), peer_rows_json({measured_row(), measured_row()}));
@@ -100,12 +100,12 @@ TEST_F(FakePeers, RowsComeBackAsTheyWereWritten) {
   EXPECT_NE(outcome_line(*record).find("6.0 times our CPU time"), std::string::npos);
 }
 
-TEST_F(FakePeers, TheProgramIsToldSizeLimitAndFolders) {
+TEST_F(FakePeers, TheProgramGetsSizeLimitAndFolders) {
   play("echo \"$@\"; exit 9");
-  const std::string said = only_row().result;
+  const std::string stated = only_row().result;
   for (const std::string& word : {std::string("meshes 500 strake"), std::string("--limit 20"),
                                   "--scenes " + programs_.output.string(), std::string("--json")})
-    EXPECT_NE(said.find(word), std::string::npos) << said;
+    EXPECT_NE(stated.find(word), std::string::npos) << stated;
 }
 
 TEST_F(FakePeers, AProgramThatIsMissingIsARow) {
@@ -115,7 +115,7 @@ TEST_F(FakePeers, AProgramThatIsMissingIsARow) {
   EXPECT_TRUE(may_be_retried({"x", {row}}));
 }
 
-TEST_F(FakePeers, AProgramThatFailsIsARowWithWhatItSaidLast) {
+TEST_F(FakePeers, AProgramThatFailsIsARowWithWhatItStatedLast) {
   play("echo out of luck; exit 3");
   EXPECT_EQ(only_row().outcome, kFailed);
   EXPECT_EQ(only_row().result, "exit status 3: out of luck");
@@ -127,7 +127,7 @@ TEST_F(FakePeers, AProgramThatFailsIsARowWithWhatItSaidLast) {
 
 TEST_F(FakePeers, WhatWasMeasuredBeforeAFailureIsKept) {
   play_rows({measured_row()}, "exit 3");
-  const Result<PeerRecord> record = ask();
+  const Result<PeerRecord> record = run();
   ASSERT_TRUE(record.has_value());
   ASSERT_EQ(record->rows.size(), 2U);
   EXPECT_EQ(record->rows[0].outcome, kMeasured);
@@ -174,7 +174,7 @@ TEST_F(FakePeers, AStopEndsTheProgram) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     source.request_stop();
   });
-  const Result<PeerRecord> record = ask(source.get_token());
+  const Result<PeerRecord> record = run(source.get_token());
   stopper.join();
   ASSERT_FALSE(record.has_value());
   EXPECT_EQ(record.error().code, ErrorCode::cancelled);

@@ -25,7 +25,7 @@ TEST(Dates, AreNoneWhereThereIsNoSuchDay) {
     EXPECT_FALSE(utc_of(text)) << text;
 }
 
-TEST(Dates, OfCSayNoZone) {
+TEST(Dates, OfCStateNoZone) {
   EXPECT_EQ(utc_of_c_time("Thu Jul 11 09:38:20 2013"), "2013-07-11T09:38:20Z");
   EXPECT_EQ(utc_of_c_time("Mon Oct  4 17:12:39 2021\n"), "2021-10-04T17:12:39Z");
   for (const char* const text :

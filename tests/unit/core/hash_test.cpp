@@ -37,9 +37,9 @@ TEST(Hash, of_a_sequence_stays_the_same_for_ever) {
   EXPECT_EQ(hasher.value().text(), "e6534c508abfc33be30b9c91a29613dd");
 }
 
-TEST(Hash, tells_sequences_apart) {
-  std::set<std::string> seen;
-  const auto insert = [&](Hasher& hasher) { return seen.insert(hasher.value().text()).second; };
+TEST(Hash, distinguishes_sequences) {
+  std::set<std::string> found;
+  const auto insert = [&](Hasher& hasher) { return found.insert(hasher.value().text()).second; };
   Hasher empty, ab_c, a_bc, number, text, order;
   EXPECT_TRUE(insert(empty));
   EXPECT_TRUE(insert(ab_c.add("ab").add("c")));

@@ -19,7 +19,7 @@ TEST(UnionFind, roots_are_the_lowest_members_whatever_the_order_of_the_joins) {
   }
 }
 
-TEST(UnionFind, a_join_tells_whether_it_changed_anything) {
+TEST(UnionFind, a_join_reports_whether_it_changed_anything) {
   UnionFind sets(3);
   EXPECT_TRUE(sets.join(0, 1));
   EXPECT_FALSE(sets.join(1, 0));

@@ -60,7 +60,7 @@ TEST(Units, distances_have_a_sign_and_an_end) {
   }
 }
 
-TEST(Units, coordinates_are_millimetres_unless_they_say_otherwise) {
+TEST(Units, coordinates_are_millimetres_unless_they_state_otherwise) {
   EXPECT_DOUBLE_EQ(*parse_coordinate_mm("4500"), 4500);
   EXPECT_DOUBLE_EQ(*parse_coordinate_mm(" -4.5 m"), -4500);
   for (const auto& [text, words] :

@@ -19,7 +19,7 @@ TEST(XmlText, IsNoMarkup) {
               "&lt;a b=&quot;c&quot; d=&#39;e&#39;&gt; &amp; ]]&gt; \xC3\xA4 \xF0\x9F\x9A\xA2");
 }
 
-TEST(XmlText, KeepsWhatIsAskedFor) {
+TEST(XmlText, KeepsWhatIsRequested) {
   const std::string lost(kReplacement);
   const std::string given = "a\tb\nc\r\x7F\xE2\x80\xAE";
   EXPECT_EQ(as_xml(given, XmlCharacters::printable),

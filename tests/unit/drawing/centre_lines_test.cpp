@@ -162,7 +162,7 @@ TEST(CentreLines, SmallPartsAndPerspectiveHaveNone) {
   parts.add(geometry::CylinderPrimitive{9.9, 500}, kAlongX, {0, 0, 0})
       .add(geometry::CylinderPrimitive{9.9, 500}, kTowardsViewer, {0, 0, 300});
   EXPECT_TRUE(parts.lines().empty());
-  EXPECT_EQ(parts.lines(false, {{0, -1, 0}}, {.least_diameter_mm = 1.9}).size(), 3U);
+  EXPECT_EQ(parts.lines(false, {{0, -1, 0}}, {.min_diameter_mm = 1.9}).size(), 3U);
   hlr::View view{{0, -1, 0}};
   view.perspective = hlr::Perspective{{0, -5000000, 0}, {0, 0, 0}};
   EXPECT_TRUE(Parts().add(kPipe, kAlongX, {0, 0, 0}).lines(false, view).empty());
@@ -193,8 +193,8 @@ TEST(CentreLines, TheTeamDecidesNothing) {
 
 TEST(CentreLines, WordsAndDiameters) {
   EXPECT_FALSE(parse_centre_lines("off")->has_value());
-  EXPECT_EQ((*parse_centre_lines("on"))->least_diameter_mm, 2);
-  EXPECT_EQ((*parse_centre_lines("4mm"))->least_diameter_mm, 4);
+  EXPECT_EQ((*parse_centre_lines("on"))->min_diameter_mm, 2);
+  EXPECT_EQ((*parse_centre_lines("4mm"))->min_diameter_mm, 4);
   for (const char* const wrong : {"", "yes", "4", "-4mm", "0mm", "5m"})
     EXPECT_FALSE(parse_centre_lines(wrong)) << wrong;
 }

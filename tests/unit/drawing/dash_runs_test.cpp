@@ -31,7 +31,7 @@ TEST(DashFit, StrokesEndWithTheWholeFirstDash) {
     for (double length = shortest_dashed(dash) + 0.01; length < 200; length *= 1.037) {
       const double stretch = fitted_stretch(length, DashEnds::open, dash);
       ASSERT_GT(stretch, 0) << length;
-      EXPECT_GE(stretch, kLeastStretch * 0.9) << length;
+      EXPECT_GE(stretch, kMinStretch * 0.9) << length;
       EXPECT_LE(stretch, 1.5) << length;
       const double first = dash.front() * stretch;
       EXPECT_NEAR(end_dash(length, stretch, dash), first, 0.101 * first + 1e-9) << length;
@@ -68,12 +68,12 @@ TEST(DashFit, CentredStrokesHaveADashInTheirMiddle) {
 }
 
 TEST(DashFit, FewPatternsServeMostShortStrokes) {
-  std::vector<double> seen;
+  std::vector<double> known;
   for (double length = 3; length < 8; length += 0.01) {
     const double stretch = fitted_stretch(length, DashEnds::open, kDashes);
-    if (std::ranges::find(seen, stretch) == seen.end()) seen.push_back(stretch);
+    if (std::ranges::find(known, stretch) == known.end()) known.push_back(stretch);
   }
-  EXPECT_LT(seen.size(), 20U);
+  EXPECT_LT(known.size(), 20U);
 }
 
 /// The lines from point to point, and the runs that they make.

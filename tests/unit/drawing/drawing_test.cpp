@@ -249,16 +249,17 @@ TEST(Layout, APerspectiveHasAFrameWhereItEnds) {
   EXPECT_FALSE(laid_out(drawing, options).frame);
   EXPECT_EQ(svg_of(laid_out(drawing, options)).find("view-frame"), std::string::npos);
   drawing.view.perspective = hlr::Perspective{{0, 0, 1000 * kMm}, {0, 0, 0}};
-  const NeutralDrawing seen = laid_out(drawing, options);
-  ASSERT_TRUE(seen.frame);
-  EXPECT_EQ(seen.lines[0].a_paper, (PaperPoint{150, 149.5}));
+  const NeutralDrawing other_view = laid_out(drawing, options);
+  ASSERT_TRUE(other_view.frame);
+  EXPECT_EQ(other_view.lines[0].a_paper, (PaperPoint{150, 149.5}));
   // At the left the field ends; the other sides are beside the lines.
-  EXPECT_EQ(seen.frame->left, 150);
-  EXPECT_EQ(seen.frame->top, 136.5);
-  EXPECT_EQ(seen.frame->right, 273);
-  EXPECT_EQ(seen.frame->bottom, 152.5);
-  EXPECT_NE(svg_of(seen).find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
-                              "273 152.5 150 152.5Z\"/>"),
+  EXPECT_EQ(other_view.frame->left, 150);
+  EXPECT_EQ(other_view.frame->top, 136.5);
+  EXPECT_EQ(other_view.frame->right, 273);
+  EXPECT_EQ(other_view.frame->bottom, 152.5);
+  EXPECT_NE(svg_of(other_view)
+                .find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
+                      "273 152.5 150 152.5Z\"/>"),
             std::string::npos);
   drawing.pieces.clear();
   EXPECT_FALSE(laid_out(drawing, options).frame);
@@ -324,15 +325,15 @@ TEST(SagForPaper, FollowsTheScale) {
   along.up = {0, 0, 1};
   EXPECT_DOUBLE_EQ(sag(along), 0.05 * 0.5);
   // Twice as near as the plane of the target, and cut off by the field of view.
-  hlr::View seen = along;
-  seen.perspective = hlr::Perspective{{2000 * kMm, 0, 0}, {}, 100, 90};
-  EXPECT_DOUBLE_EQ(sag(seen), 0.05);
-  seen.perspective->field_of_view_deg = 2;
-  EXPECT_DOUBLE_EQ(sag(seen), 0.05 * 0.5);
+  hlr::View other_view = along;
+  other_view.perspective = hlr::Perspective{{2000 * kMm, 0, 0}, {}, 100, 90};
+  EXPECT_DOUBLE_EQ(sag(other_view), 0.05);
+  other_view.perspective->field_of_view_deg = 2;
+  EXPECT_DOUBLE_EQ(sag(other_view), 0.05 * 0.5);
 }
 
 /// What a drawing is made with stands in it.
-TEST(SagForPaper, IsToldInTheDrawing) {
+TEST(SagForPaper, IsReportedInTheDrawing) {
   const model::Model model = pipe(1500);
   const auto scene = model::make_scene(model, {.sag_mm = 0.5}, {});
   ASSERT_TRUE(scene);
@@ -501,7 +502,7 @@ TEST(Svg, IsWellFormedAndRenders) {
   EXPECT_LE(picture, 0);
 }
 
-TEST(ViewJson, SaysWhatTheDrawingHolds) {
+TEST(ViewJson, StatesWhatTheDrawingHolds) {
   LayoutOptions options;
   options.view_name = "top";
   const NeutralDrawing drawing = laid_out(rectangle(), options);

@@ -127,7 +127,7 @@ struct Drawn {
 constexpr double kTurn = 2 * std::numbers::pi;
 
 TEST(DxfValues, StayOnOneLineAndShowThemselves) {
-  const auto value = [](std::string_view text) { return dxf::value_text(text, dxf::kMostOfData); };
+  const auto value = [](std::string_view text) { return dxf::value_text(text, dxf::kMaxOfData); };
   EXPECT_EQ(value("PIPE-1 R\xC3\xB8r"), "PIPE-1 R\xC3\xB8r");
   EXPECT_EQ(value("a\nb\r\n0\nLINE"),
             "a\xEF\xBF\xBD"
@@ -147,7 +147,7 @@ TEST(DxfValues, AreCutBetweenCharacters) {
   std::string wide;
   for (int i = 0; i < 200; ++i) wide += "\xE6\xBC\xA2";
   EXPECT_EQ(dxf::value_text(wide, 254), wide.substr(0, 249) + "\xE2\x80\xA6");
-  EXPECT_EQ(dxf::shown_text(long_name).size(), dxf::kMostOfText);
+  EXPECT_EQ(dxf::shown_text(long_name).size(), dxf::kMaxOfText);
 }
 
 TEST(DxfLayers, HavePensAndColoursThatTheFormatKnows) {
@@ -189,7 +189,7 @@ TEST(Dxf, EveryHandleIsItsOwnAndEveryOwnerIsThere) {
     EXPECT_TRUE(owner == "0" || handles.contains(owner)) << owner;
 }
 
-TEST(Dxf, JoinsLinesAtTrueSizeAndTellsWhoseTheyAre) {
+TEST(Dxf, JoinsLinesAtTrueSizeAndKeepsWhoseTheyAre) {
   Drawn drawn;
   drawn.add(0, 0, 1000.001, 0);
   drawn.add(1000.001, 0, 1000.001, 0.125);

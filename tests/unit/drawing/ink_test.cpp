@@ -49,7 +49,7 @@ double length_of(const Ink& ink, LineState state) {
 
 constexpr LineState kVisible = LineState::visible, kHidden = LineState::hidden_by_other;
 
-TEST(Ink, TakesTheStatesThatAreAskedFor) {
+TEST(Ink, TakesTheStatesThatAreRequested) {
   const NeutralDrawing drawing = from_top(
       {line({0, 0}, {50, 0}, kVisible), line({0, 20}, {50, 20}, kHidden),
        line({0, 40}, {50, 40}, LineState::duplicate), line({0, 60}, {50, 60}, LineState::clipped)});

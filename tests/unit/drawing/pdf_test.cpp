@@ -152,7 +152,7 @@ TEST(Lettering, SubsetKeepsWhatItsGlyphsAreMadeOf) {
   EXPECT_EQ(sum, 0xB1B0AFBAU);
 }
 
-TEST(Lettering, TellsWhatItCannotShow) {
+TEST(Lettering, ReportsWhatItCannotShow) {
   Letterer letterer;
   EXPECT_FALSE(letterer.set("\xCE\x9B \xD0\x96 \xC3\xA9 A").lacking);
   EXPECT_TRUE(letterer.diagnostics().counts().empty());
@@ -210,7 +210,7 @@ struct Example {
   }
 };
 
-TEST(Pdf, IsAFileWhoseObjectsAreWhereItsTableSays) {
+TEST(Pdf, IsAFileWhoseObjectsAreWhereItsTableStates) {
   const test::PdfObjects pdf = test::read_pdf(Example().pdf());
   ASSERT_EQ(pdf.fault, "");
   EXPECT_TRUE(pdf.has("/MediaBox[0 0 1190.551181 841.889764]"));
@@ -314,12 +314,12 @@ TEST(Pdf, HasTheSameBytesForAnyTeamAndOthersForOtherLines) {
   EXPECT_NE(identity(other.pdf()), identity(expected));
 }
 
-TEST(Pdf, TellsCharactersThatTheFontLacks) {
+TEST(Pdf, ReportsCharactersThatTheFontLacks) {
   const Example example;
-  const auto told = write_pdf(example.drawing, example.ink, example.model, [](auto) {}, {});
-  ASSERT_TRUE(told);
-  ASSERT_EQ(told->count("text-character-missing"), 1U);
-  EXPECT_NE(told->kept().front().message.find("U+4E2D"), std::string::npos);
+  const auto reported = write_pdf(example.drawing, example.ink, example.model, [](auto) {}, {});
+  ASSERT_TRUE(reported);
+  ASSERT_EQ(reported->count("text-character-missing"), 1U);
+  EXPECT_NE(reported->kept().front().message.find("U+4E2D"), std::string::npos);
 }
 
 TEST(Pdf, EndsWhereTheSinkThrowsOrTheRunIsCancelled) {

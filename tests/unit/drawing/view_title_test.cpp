@@ -16,7 +16,7 @@ using geometry::Vec3l;
 
 constexpr std::int64_t kMm = 1000;  // grid units
 
-TEST(ViewTitle, SaysTheSections) {
+TEST(ViewTitle, StatesTheSections) {
   const auto title = [](std::vector<hlr::Section> sections, Vec3l direction = {0, 0, 1}) {
     hlr::View view;
     view.direction = direction;

@@ -45,7 +45,7 @@ std::set<std::uint32_t> inside_out_shapes(const Ship& ship) {
   return shapes;
 }
 
-TEST(Ship, has_exactly_the_objects_asked_for) {
+TEST(Ship, has_exactly_the_objects_requested) {
   for (const std::uint64_t count : {100U, 101U, 137U, 250U, 999U, 1000U, 3001U, 7777U}) {
     const Ship ship = make(count, count);
     EXPECT_EQ(ship.model.objects.size(), count);
@@ -61,7 +61,7 @@ TEST(Ship, refuses_numbers_that_make_no_ship) {
   }
 }
 
-TEST(Ship, stops_when_told) {
+TEST(Ship, stops_on_request) {
   const std::stop_source source;
   source.request_stop();
   parallel::Context context;
@@ -229,7 +229,7 @@ TEST(Ship, a_small_ship_has_hits_near_misses_and_shared_shapes) {
   }
 }
 
-TEST(Ship, truth_file_says_what_the_truth_holds) {
+TEST(Ship, truth_file_states_what_the_truth_holds) {
   const Ship ship = make(2500, 6);
   const nlohmann::json truth = nlohmann::json::parse(truth_text(ship));
   EXPECT_EQ(truth["schema_version"], 1);

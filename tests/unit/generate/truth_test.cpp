@@ -82,7 +82,7 @@ TEST_P(TruthAgainstBruteForce, every_near_pair_is_declared) {
   EXPECT_EQ(found, declared.size());
 }
 
-TEST_P(TruthAgainstBruteForce, depth_is_what_the_construction_says) {
+TEST_P(TruthAgainstBruteForce, depth_is_what_the_construction_states) {
   const Ship ship = ship_of(GetParam());
   if (ship.options.objects > 2000) GTEST_SKIP() << "sampling is for the small ships";
   const std::vector<WorldObject> world = world_of(ship);

@@ -142,7 +142,7 @@ TEST(SceneBvh, SameTreeAndPairsForAnyTeam) {
             by_definition({items.begin(), items.begin() + 3000}));
 }
 
-TEST(SceneBvh, StopsWhenAskedTo) {
+TEST(SceneBvh, StopsWhenRequestedTo) {
   const std::stop_source source;
   source.request_stop();
   const auto items = random_items({});

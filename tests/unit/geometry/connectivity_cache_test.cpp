@@ -81,7 +81,7 @@ TEST(ConnectivityCache, AlikeMeshesShareFromTheSecondOn) {
   }
 }
 
-TEST(ConnectivityCache, FacesAreToldApart) {
+TEST(ConnectivityCache, FacesAreDistinguished) {
   MeshRepairer analyser;
   GridMesh mesh = prism(12, 1000, 500);
   for (int round = 0; round < 3; ++round)
@@ -95,7 +95,7 @@ TEST(ConnectivityCache, FacesAreToldApart) {
 
 // What coordinates can do to a mesh of the same triangles in the same order of vertices: turn it
 // inside out, take its volume, take the area of some triangles, pinch it to a crowded edge.
-TEST(ConnectivityCache, CoordinatesAreAskedEachTime) {
+TEST(ConnectivityCache, CoordinatesAreRequestedEachTime) {
   MeshRepairer analyser;
   // Two tetrahedra back to back over a triangle whose corners lie apart in x.
   const std::vector<Triangle> triangles{{0, 1, 3}, {1, 2, 3}, {2, 0, 3},

@@ -79,16 +79,17 @@ IndexedMesh bridge_pipe(std::int32_t r, std::int32_t span, std::int32_t height) 
       false);
 }
 
-struct Asked {
+struct RegionQuery {
   double reach_mm = 1;
   bool interiors_meet = false;
 };
 
-std::vector<ContactRegion> places(const IndexedMesh& a, const IndexedMesh& b, const Asked& asked) {
+std::vector<ContactRegion> places(const IndexedMesh& a, const IndexedMesh& b,
+                                  const RegionQuery& query) {
   const Subject x(a), y(b, {});
   QueryContext work;
-  const ContactRegionOptions question{.reach = asked.reach_mm * kMm,
-                                      .interiors_meet = asked.interiors_meet};
+  const ContactRegionOptions question{.reach = query.reach_mm * kMm,
+                                      .interiors_meet = query.interiors_meet};
   const auto found = contact_regions(x.treed(), y.treed(), question, work);
   const auto turned = contact_regions(y.treed(), x.treed(), question, work);
   EXPECT_TRUE(found && turned);
@@ -124,7 +125,7 @@ TEST(ContactRegionsTest, FourFeetOnADeck) {
 TEST(ContactRegionsTest, APipeThroughAWallIsOne) {
   const IndexedMesh wall =
       box_mesh({-1000 * kMm, -1000 * kMm, 0}, {1000 * kMm, 1000 * kMm, 200 * kMm});
-  const Asked hit{.interiors_meet = true};
+  const RegionQuery hit{.interiors_meet = true};
   EXPECT_EQ(places(pipe(50 * kMm, 300 * kMm, 0, -500 * kMm, 700 * kMm), wall, hit).size(), 1U);
   // A hollow one leaves a ring of material in the middle of a triangle of the wall's face.
   EXPECT_EQ(
@@ -166,11 +167,11 @@ TEST(ContactRegionsTest, NothingNearForOneFarInsideTheOther) {
                   .empty());
 }
 
-TEST(ContactRegionsTest, GivesUpWhereThereAreMorePairsThanAskedFor) {
+TEST(ContactRegionsTest, GivesUpWhereThereAreMorePairsThanRequested) {
   const Subject a(pipe(50 * kMm, 0, 0, 0, 500 * kMm)), b(pipe(50 * kMm, 0, 0, 0, 500 * kMm));
   QueryContext work;
-  EXPECT_FALSE(contact_regions(a.treed(), b.treed(), {.reach = 1 * kMm, .most_pairs = 10}, work)
-                   .has_value());
+  EXPECT_FALSE(
+      contact_regions(a.treed(), b.treed(), {.reach = 1 * kMm, .max_pairs = 10}, work).has_value());
 }
 
 /// A point stood askew on the grid.
@@ -217,7 +218,7 @@ std::vector<FansCase> fans_cases() {
           {"too far apart", {150000, 170000, 22000}, 0}};
 }
 
-TEST(ContactRegionsTest, FansOfNeedlesAreToldAsTriangleByTriangle) {
+TEST(ContactRegionsTest, FansOfNeedlesAreReportedAsTriangleByTriangle) {
   for (const FansCase& fans : fans_cases()) {
     SCOPED_TRACE(fans.name);
     const Subject a(fan_disc(500000, 20000, 400, {})), b(fan_disc(400000, 20000, 400, fans.at));
@@ -247,30 +248,30 @@ TEST(ContactRegionsTest, FansOfTooManyNeedlesAreGivenUpSoon) {
     const std::size_t triangles = a.part.triangles.size() + b.part.triangles.size();
     QueryContext work;
     const auto found = contact_regions(a.treed(), b.treed(),
-                                       {.reach = 1.0 * kMm, .most_pairs = 2 * triangles}, work);
+                                       {.reach = 1.0 * kMm, .max_pairs = 2 * triangles}, work);
     EXPECT_EQ(found.has_value(), fans.places == 0);
     EXPECT_LE(work.triangle_pairs, 12 * triangles);
     EXPECT_LE(work.node_pairs, 12 * triangles);
   }
 }
 
-TEST(ContactRegionsTest, AWideReachIsToldWithoutAListOfNearTriangles) {
+TEST(ContactRegionsTest, AWideReachIsReportedWithoutAListOfNearTriangles) {
   // Two tubes side by side are far from convex, and nearly all their triangles are near each other.
   const auto one = tube(50 * kMm, 45 * kMm, 0, 0, 0, 400 * kMm);
   const Subject a(one), b(one, {130 * kMm, 0, 0});
-  const auto ask = [&](SingleRegionDetail what, std::uint64_t most) {
+  const auto find_regions = [&](SingleRegionDetail what, std::uint64_t most) {
     QueryContext work;
     const auto found = contact_regions(
-        a.treed(), b.treed(), {.reach = 300.0 * kMm, .one = what, .most_pairs = most}, work);
+        a.treed(), b.treed(), {.reach = 300.0 * kMm, .one = what, .max_pairs = most}, work);
     EXPECT_LE(work.triangle_pairs, 5 * (a.part.triangles.size() + b.part.triangles.size()));
     return found;
   };
   for (const SingleRegionDetail what : {SingleRegionDetail::counted, SingleRegionDetail::boxed}) {
-    const auto found = ask(what, 100);
+    const auto found = find_regions(what, 100);
     ASSERT_TRUE(found.has_value());
     EXPECT_EQ(found->size(), 1U);
   }
-  EXPECT_FALSE(ask(SingleRegionDetail::described, 100).has_value());
+  EXPECT_FALSE(find_regions(SingleRegionDetail::described, 100).has_value());
 }
 
 /// A container with corrugated sides, stood askew on the grid: high needles all round.
@@ -303,12 +304,12 @@ TEST(ContactRegionsTest, CorrugatedContainersOnEachOtherAreOnePlace) {
     SCOPED_TRACE(waves);
     const Subject a(corrugated(waves, 0)), b(corrugated(waves, 1500 * kMm));
     ASSERT_EQ(a.part.kind, PartKind::solid);
-    const auto ask = [&](SingleRegionDetail what, QueryContext& work) {
+    const auto find_regions = [&](SingleRegionDetail what, QueryContext& work) {
       return contact_regions(a.treed(), b.treed(), {.reach = 1.0 * kMm, .one = what}, work);
     };
     QueryContext work, all;
-    const auto boxed = ask(SingleRegionDetail::boxed, work);
-    const auto described = ask(SingleRegionDetail::described, all);
+    const auto boxed = find_regions(SingleRegionDetail::boxed, work);
+    const auto described = find_regions(SingleRegionDetail::described, all);
     ASSERT_TRUE(boxed && described);
     ASSERT_EQ(boxed->size(), 1U);
     ASSERT_EQ(described->size(), 1U);

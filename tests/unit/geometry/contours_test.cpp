@@ -91,7 +91,7 @@ TEST(Contours, OfABallAreItsEquator) {
 
 TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
   PrimitiveDraw draw(4);
-  int seen = 0;
+  int visible_count = 0;
   for (int i = 0; i < test::rounds(200); ++i) {
     const EllipticalDishPrimitive dish{draw.between(10, 900), draw.between(10, 900)};
     const Vec3d towards = draw.direction();
@@ -99,7 +99,7 @@ TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
     const auto contours = Net(t.mesh).contours(towards);
     const double worst = worst_end(dish, t, towards);
     if (worst > 1e-9) continue;  // near the rim it is left out
-    ++seen;
+    ++visible_count;
     std::map<std::array<double, 3>, int> ends;
     for (const auto& [a, b] : contours) ++ends[{a.x, a.y, a.z}], ++ends[{b.x, b.y, b.z}];
     int loose = 0;
@@ -112,7 +112,7 @@ TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
     }
     EXPECT_EQ(loose, contours.empty() ? 0 : 2);
   }
-  EXPECT_GT(seen, test::rounds(150));
+  EXPECT_GT(visible_count, test::rounds(150));
 }
 
 TEST(Contours, OfASphericalDishRunFromRimToRim) {
@@ -405,7 +405,7 @@ void check_mesh(const Primitive& primitive, const Mat3d& linear, const Tessellat
 }
 
 // Closed, turned outward, and as near to the true surface as they say.
-TEST(Contours, MeshesKeepWhatTheySay) {
+TEST(Contours, MeshesKeepWhatTheyState) {
   PrimitiveDraw draw(7);
   std::mt19937_64 random(7);
   for (int i = 0; i < 300; ++i) {
@@ -424,7 +424,7 @@ TEST(Contours, MeshesKeepWhatTheySay) {
 }
 
 // Wherever the eye is, in the primitive too.
-TEST(ContoursFromAnEye, MeshesKeepWhatTheySay) {
+TEST(ContoursFromAnEye, MeshesKeepWhatTheyState) {
   PrimitiveDraw draw(16);
   std::mt19937_64 random(16);
   for (int i = 0; i < 300; ++i) {

@@ -39,7 +39,7 @@ TEST(CoplanarContact, BoxesThatTouchWithoutTheirBodies) {
   EXPECT_FALSE(c.touching);
 }
 
-TEST(CoplanarContact, BoxesThatOverlapSayNothing) {
+TEST(CoplanarContact, BoxesThatOverlapStateNothing) {
   const Subject a(box_mesh({0, 0, 0}, {100, 100, 10})), b(box_mesh({0, 0, 9}, {10, 10, 20}));
   EXPECT_FALSE(find_coplanar_contact(a.treed().placed, b.treed().placed).separated);
 }

@@ -208,7 +208,7 @@ TEST(Depth, ChangesByNoMoreThanTheMove) {
 
 /// More triangles than levels are asked of, and no point that counts: the search must not ask the
 /// same again.
-TEST(Depth, WhatNoLevelTellsEnds) {
+TEST(Depth, WhatNoLevelDecidesEnds) {
   const IndexedMesh pipe = testing::tube(2500, 1'000'000, 900'000, 0, 500'000);
   const Subject a(pipe), b(pipe, {100, 0, 0});
   const Depth d = testing::depth_of(
@@ -371,9 +371,9 @@ TEST(SheetDepth, TheWorkLimitGoesByTheWholeOfALargeSheet) {
   const DepthOperand s{sheet.treed(), &ps}, b{box.treed(), &pb};
   const Depth fine = sheet_in_solid_depth(s, b, {.tolerance = 0.5, .relative = 0}, work);
   ASSERT_LE(fine.upper - fine.lower, 0.5);
-  const Depth told = sheet_in_solid_depth(
+  const Depth reported = sheet_in_solid_depth(
       s, b, {.threshold = fine.lower - 1, .cells_undecided = 0, .cells_decided = 0}, work);
-  EXPECT_GT(told.lower, fine.lower - 1);
+  EXPECT_GT(reported.lower, fine.lower - 1);
 }
 
 TEST(SheetDepth, FromWhereTheWorkLimitEndsTheSearchAPointClimbs) {
@@ -393,7 +393,7 @@ TEST(SheetDepth, FromWhereTheWorkLimitEndsTheSearchAPointClimbs) {
   }
 }
 
-TEST(SheetDepth, SaysWhetherAWorkLimitEndedTheSearch) {
+TEST(SheetDepth, StatesWhetherAWorkLimitEndedTheSearch) {
   const Subject sheet(
       testing::quad_mesh({300'000, -40'000, -30'000}, {0, 190'000, 0}, {70'000, 0, 150'000}));
   const Subject u(channel(1'000'000, 100'000, 80'000, 10'000));

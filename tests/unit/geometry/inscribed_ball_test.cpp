@@ -89,13 +89,13 @@ TEST(InscribedBallTest, ContradictionEndsWithoutAnOptimum) {
 
 TEST(InscribedBallTest, AContradictionIsProvedAndNothingElse) {
   const auto rows = ball_in_box({{0, 0, 0}, {10, 10, 10}});
-  const auto after = [&](double least_x) {
+  const auto after = [&](double min_x) {
     const std::span<const BallConstraint> all = rows;
     DualSimplex simplex(all.first<4>(), 100);
     EXPECT_TRUE(simplex.load());
     EXPECT_TRUE(simplex.exchange({{1, 0, 0}, 0, 4}, 4));
     EXPECT_TRUE(simplex.load());
-    const BallConstraint opposite{{-1, 0, 0}, 0, -least_x};
+    const BallConstraint opposite{{-1, 0, 0}, 0, -min_x};
     return std::pair(simplex.exchange(opposite, 5), simplex.proves_empty(opposite));
   };
   EXPECT_EQ(after(6), std::pair(false, true));

@@ -96,7 +96,7 @@ IndexedMesh about(const Vec3d& p, double least, double most, Draw& draw) {
 /// Of boxes about points that are deeper in a part than all that is near them.
 template <class Make>
 void expect_no_level_clear_below_a_point(const Make& make) {
-  int asked = 0;
+  int queries = 0;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
@@ -119,20 +119,20 @@ void expect_no_level_clear_below_a_point(const Make& make) {
     DistanceField in(box, {}, &planes_in);
     in.prepare();
     const std::vector<HalfSpace> hull_of = half_spaces_of(of), hull_in = half_spaces_of(in);
-    ++asked;
+    ++queries;
     for (const double share : {0.5, 0.9, 0.99}) {
       LevelQuery question{.level = share * depth,
                           .known = share * depth * 0.99,
                           .ceiling = 2 * depth,
                           .slack = 1.0 / 1024,
-                          .most_cells = 100'000};
+                          .max_cells = 100'000};
       EXPECT_FALSE(search_above_level(of, in, question, {}, work).none) << share;
       question.hull_of = hull_of;
       question.hull_in = hull_in;
       EXPECT_FALSE(search_above_level(of, in, question, {}, work).none) << share << ", with hulls";
     }
   }
-  EXPECT_GT(asked, 500);
+  EXPECT_GT(queries, 500);
 }
 
 TEST(LevelSearch, ClearsNoLevelBelowAPointWhereBoxesOverlap) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a cell and of those that it is cut into holds for points of it.
+// What is reported a cell and of those that it is cut into holds for points of it.
 #include "geometry/interior_depth/level_search/offset_cell.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ class OffsetCellTest : public ::testing::Test {
     const CellCuller::CellStatus about =
         scope.classify(hull, from, on_field_grid(middle_of(cell)), crossing, work_);
     EXPECT_EQ(crossing.empty(), about.side != CellCuller::CellSide::both);
-    ++seen_[static_cast<std::size_t>(about.side)];
+    ++side_counts_[static_cast<std::size_t>(about.side)];
     for (int i = 0; i < 20 && about.side != CellCuller::CellSide::both; ++i)
       EXPECT_EQ(field.contains(point_of(cell), work_), about.side == CellCuller::CellSide::inside);
     if (times == 0) return;
@@ -63,10 +63,10 @@ class OffsetCellTest : public ::testing::Test {
   test::Draw draw_{5};
   std::unique_ptr<Subject> subject_;
   QueryContext work_;
-  std::array<int, 3> seen_{};
+  std::array<int, 3> side_counts_{};
 };
 
-TEST_F(OffsetCellTest, PointsOfCellsAreOnTheSideThatIsTold) {
+TEST_F(OffsetCellTest, PointsOfCellsAreOnTheSideThatIsReported) {
   const PartWithBvh treed = subject_->treed();
   const DistanceField field(treed, {});
   DistanceField ready = field;
@@ -76,7 +76,7 @@ TEST_F(OffsetCellTest, PointsOfCellsAreOnTheSideThatIsTold) {
     for (int i = 0; i < 100; ++i)
       follow(scope, *of, flat_cell({point(), point(), point()}, {}), {}, 6);
   }
-  for (const int times : seen_) EXPECT_GT(times, 1'000);
+  for (const int times : side_counts_) EXPECT_GT(times, 1'000);
 }
 
 /// As cutting makes them: no plane is to be had from the first three.
@@ -92,7 +92,7 @@ TEST_F(OffsetCellTest, CornersInLineAtFirst) {
     const OffsetCell cell{.corners = {p, (p + q) * 0.5, q, beside(p)}, .about = {}};
     follow(scope, field, cell, {}, 0);
   }
-  for (const int times : seen_) EXPECT_GT(times, 10);
+  for (const int times : side_counts_) EXPECT_GT(times, 10);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(OrientConsistently, FewerThanHalfOfThemAreTurnedBack) {
 }
 
 /// The connectivity of a mesh that needed it is not that of the next one.
-TEST(OrientConsistently, IsToldOfEachMeshOfManyAlike) {
+TEST(OrientConsistently, IsReportedOfEachMeshOfManyAlike) {
   GridMesh mesh = grid_box({0, 0, 0}, {1000, 1000, 1000});
   turn(mesh.triangles[5]);
   MeshRepairer analyser;

@@ -171,7 +171,7 @@ TEST(SlabProximity, LooksAtNothingButTheFacesThatMeet) {
   EXPECT_NEAR(std::sqrt(dot(off, off)), found.near->distance, 1e-6);
 }
 
-TEST(SlabProximity, SaysThatThereIsNothing) {
+TEST(SlabProximity, StatesThatThereIsNothing) {
   const Subject deck(askew(box_mesh({0, 0, 0}, {900'000, 600'000, 3'000})));
   // Beside each other in the plane: no triangles are near, although the slab is narrow.
   const Subject beside(askew(box_mesh({900'100, 0, 3'000}, {990'000, 600'000, 9'000})));

@@ -102,7 +102,7 @@ TEST(PlanarRegionTest, WhatElseReachesThePlaneIsNotForgotten) {
   EXPECT_FALSE(in_one(below, spike, 1000));
 }
 
-TEST(PlanarRegionTest, AgreesWithPlacesToldByTriangles) {
+TEST(PlanarRegionTest, AgreesWithPlacesReportedByTriangles) {
   std::size_t found = 0, several = 0;
   for (std::uint64_t seed = 1; seed <= test::rounds(300U, 20'000U); ++seed) {
     SCOPED_TRACE(seed);

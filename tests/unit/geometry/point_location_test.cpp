@@ -62,7 +62,7 @@ void shuffle_triangles(IndexedMesh& mesh, Draw& draw) {
 
 TEST(PointLocator, ATurnedFrameGivesTheSamePlaces) {
   const int rounds = test::rounds(8, 200);
-  std::array<int, 3> seen{};
+  std::array<int, 3> found{};
   for (int round = 0; round < rounds; ++round) {
     Draw draw(static_cast<std::uint64_t>(round));
     const Mat3d turn = draw.rotation();
@@ -88,13 +88,13 @@ TEST(PointLocator, ATurnedFrameGivesTheSamePlaces) {
     QueryContext work;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const BandLocation location = plain.location(points[i], work);
-      ++seen[static_cast<std::size_t>(location)];
+      ++found[static_cast<std::size_t>(location)];
       ASSERT_EQ(turned.location(points[i], work), location) << "round " << round << ", point " << i;
       const double apart = distance_to_surface(drum.treed(), points[i].as<double>());
       ASSERT_EQ(location == BandLocation::near_surface, apart <= band);
     }
   }
-  for (const int times : seen) EXPECT_GT(times, 100 * rounds);
+  for (const int times : found) EXPECT_GT(times, 100 * rounds);
 }
 
 /// The work of finding a drum, flush with another at one end, in that.

@@ -204,7 +204,7 @@ double to_skin(const Primitive& body, const Vec3d& p) {
 }
 
 /// Closest points lie on both skins; a deepest point and the skin's nearest lie d apart.
-TEST(PrimitiveSeparationTest, WitnessesLieWhereTheySay) {
+TEST(PrimitiveSeparationTest, WitnessesLieWhereTheyState) {
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);

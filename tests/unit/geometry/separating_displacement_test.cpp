@@ -30,7 +30,7 @@ using testing::interiors_meet;
 using testing::Subject;
 using testing::turned_by;
 
-constexpr double kMost = 3;
+constexpr double kMax = 3;
 constexpr std::int32_t kLength = 1'000'000, kWidth = 120'000, kHeight = 110'000, kWall = 10'000;
 
 /// Fills a channel from `from` to `to`, and goes into its walls and its floor by `over`.
@@ -39,7 +39,7 @@ IndexedMesh filling(std::int32_t from, std::int32_t to, std::int32_t over) {
 }
 
 std::optional<SeparatingDisplacement> shrunk(const Subject& a, const Subject& b,
-                                             double most = kMost) {
+                                             double most = kMax) {
   QueryContext work;
   return find_separating_displacement(a.treed(), b.treed(), most, most, work);
 }
@@ -76,10 +76,10 @@ TEST(SeparatingDisplacementTest, ABoxThatFillsAChannelIsATie) {
     ++met;
     const auto proved = shrunk(a, b);
     ASSERT_TRUE(proved) << "seed " << seed;
-    EXPECT_LE(proved->depth, kMost);
+    EXPECT_LE(proved->depth, kMax);
     expect_none_deeper(a, b, proved->depth, seed);
-    const Depth d = depth_from_touch(a, b, {.threshold = 500, .apart_within = kMost});
-    EXPECT_LE(d.upper, kMost) << "seed " << seed;
+    const Depth d = depth_from_touch(a, b, {.threshold = 500, .apart_within = kMax});
+    EXPECT_LE(d.upper, kMax) << "seed " << seed;
     EXPECT_LE(d.lower, d.value);
     EXPECT_LE(d.value, d.upper);
     EXPECT_EQ(d.cells, 0U) << "seed " << seed;

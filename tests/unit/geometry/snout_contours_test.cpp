@@ -93,7 +93,7 @@ bool has_true_contours(const Viewer& viewer, const Tessellation& t) {
 
 TEST(SnoutContours, AreTheTrueGenerators) {
   PrimitiveDraw draw(31);
-  int seen = 0, drawn = 0;
+  int visible_count = 0, drawn = 0;
   for (int i = 0; i < test::rounds(600); ++i) {
     SCOPED_TRACE(i);
     const SnoutPrimitive snout = some_snout(draw, i);
@@ -104,12 +104,12 @@ TEST(SnoutContours, AreTheTrueGenerators) {
       const Tessellation t =
           is_eye ? tessellate_from(eye, snout, {}, 0.5) : tessellate(snout, {}, 0.5, towards);
       if (!t.fault.empty()) continue;
-      ++seen;
+      ++visible_count;
       if (has_true_contours({snout, is_eye ? eye : towards, is_eye}, t)) ++drawn;
     }
   }
-  EXPECT_GT(seen, test::rounds(600));
-  EXPECT_GT(drawn, seen / 2);
+  EXPECT_GT(visible_count, test::rounds(600));
+  EXPECT_GT(drawn, visible_count / 2);
 }
 
 }  // namespace

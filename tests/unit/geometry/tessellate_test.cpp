@@ -321,8 +321,8 @@ TEST(Tessellate, ShearedConeEndsKeepTheSag) {
     const Tessellation t = tessellate(s, {}, sag, towards);
     if (!t.fault.empty()) continue;
     ++tried;
-    constexpr std::size_t kMostSegments = 4096;
-    if (t.mesh.vertices.size() < 2 * kMostSegments) {
+    constexpr std::size_t kMaxSegments = 4096;
+    if (t.mesh.vertices.size() < 2 * kMaxSegments) {
       // Beside a contour a chord is up to a quarter longer.
       ASSERT_LE(t.mesh.sag_mm, sag * (towards ? 1.6 : 1 + 1e-12));
     }

@@ -266,7 +266,7 @@ TEST(NearPoints, AreThoseThatALookAtAllFinds) {
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     const NearPoints tree(points, all);
     const Vec3i &a = points[draw.below(300)], &b = points[draw.below(300)];
-    const std::int64_t within = round % 2 == 0 ? draw.whole(0, 12) : draw.whole(0, kMostWeld);
+    const std::int64_t within = round % 2 == 0 ? draw.whole(0, 12) : draw.whole(0, kMaxWeld);
     std::vector<std::uint32_t> found, right;
     std::uint64_t boxes = NearPoints::boxes_for(1);
     EXPECT_TRUE(tree.near(a, b, within, boxes, found));

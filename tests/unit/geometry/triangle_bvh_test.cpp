@@ -32,7 +32,7 @@ Part part_of(const TriangleMesh& mesh) {
 /// Every triangle in one leaf, every box round what is below it.
 void expect_sound(const TriangleBvh& tree, const Part& part) {
   ASSERT_FALSE(tree.nodes().empty());
-  std::vector<int> seen(part.triangles.size(), 0);
+  std::vector<int> times_met(part.triangles.size(), 0);
   std::vector<std::uint32_t> todo{0};
   std::size_t visited = 0;
   while (!todo.empty()) {
@@ -50,13 +50,13 @@ void expect_sound(const TriangleBvh& tree, const Part& part) {
     }
     ASSERT_LE(node.count, TriangleBvh::kLeafSize);
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      ++seen[tree.order()[i]];
+      ++times_met[tree.order()[i]];
       for (const std::uint32_t v : part.triangles[tree.order()[i]])
         ASSERT_TRUE(holds(node.box, part.vertices[v]));
     }
   }
   EXPECT_EQ(visited, tree.nodes().size());
-  EXPECT_EQ(seen, std::vector<int>(part.triangles.size(), 1));
+  EXPECT_EQ(times_met, std::vector<int>(part.triangles.size(), 1));
 }
 
 bool same(const TriangleBvh& x, const TriangleBvh& y) {

@@ -35,7 +35,7 @@ TriangleCorners drawn_triangle(Draw& draw, std::int32_t step, const Vec3l& at) {
   }
 }
 
-TEST(TriangleDistanceTest, BoundsHoldTheExactDistanceWhateverIsAsked) {
+TEST(TriangleDistanceTest, BoundsHoldTheExactDistanceWhateverIsRequested) {
   std::size_t meeting = 0, beyond = 0, within = 0;
   for (std::uint64_t seed = 1; seed <= test::rounds(20'000U, 2'000'000U); ++seed) {
     SCOPED_TRACE(seed);

@@ -44,7 +44,7 @@ test::SceneBuilder row(int copies, const Vec3l& step) {
   return scene;
 }
 
-hlr::View seen_from(const Vec3l& direction) {
+hlr::View view_along(const Vec3l& direction) {
   hlr::View view;
   view.direction = direction;
   return view;
@@ -87,7 +87,7 @@ TEST(BodiesInLine, AreDrawnAsDefined) {
       if (draw.one_in(4)) offset.x += draw.whole(-3, 4);
       scene.instance(static_cast<std::uint32_t>(draw.below(2)), offset);
     }
-    hlr::View view = seen_from(direction);
+    hlr::View view = view_along(direction);
     if (draw.one_in(3)) view.limits = {{{-900, -900, -900}, {700, 800, draw.whole(100, 900)}}};
     hlr::Options options{.sharp_angle_deg = 0, .hidden = draw.one_in(2)};
     if (draw.one_in(2)) options.contact_distance_mm = 0.001 * draw.whole(0, 60);
@@ -99,7 +99,7 @@ TEST(BodiesInLine, CostWhatEachCosts) {
   const auto tests_of = [](int copies, const Vec3l& direction) {
     const auto scene =
         row(copies, {400'000 * direction.x, 400'000 * direction.y, 400'000 * direction.z});
-    return hlr::draw(scene.scene(), {}, seen_from(direction), {}, {})->counters.face_tests;
+    return hlr::draw(scene.scene(), {}, view_along(direction), {}, {})->counters.face_tests;
   };
   for (const Vec3l& direction : {Vec3l{0, 0, 1}, Vec3l{1, -1, 1}}) {
     // Eight times as many, with edges of which one side stays open.

@@ -88,19 +88,19 @@ TEST(BucketGrid, MeetAllThatMayHideOnceEach) {
       const int to = from + static_cast<int>(random.below(32));
       SegmentQuery segment = loose(steps, from, to);
       if (random.one_in(8)) segment.du = segment.dv = 0;  // where it is not known but for its box
-      std::vector<int> seen(boxes.size(), 0);
+      std::vector<int> visible(boxes.size(), 0);
       buckets.traverse(segment, marks, [&](std::uint32_t i) {
-        ++seen[i];
+        ++visible[i];
         return true;
       });
       for (std::size_t i = 0; i < boxes.size(); ++i) {
-        ASSERT_LE(seen[i], 1);
+        ASSERT_LE(visible[i], 1);
         bool may_be_hidden_by = false;
         for (int k = from; k <= to; ++k)
           may_be_hidden_by = may_be_hidden_by || meets(boxes[i], steps.at(k));
         may_be_hidden_by = may_be_hidden_by && static_cast<double>(boxes[i].hi.w) > segment.w0;
-        ASSERT_TRUE(seen[i] == 1 || !may_be_hidden_by) << "seed " << seed << " box " << i;
-        met += static_cast<std::uint64_t>(seen[i]);
+        ASSERT_TRUE(visible[i] == 1 || !may_be_hidden_by) << "seed " << seed << " box " << i;
+        met += static_cast<std::uint64_t>(visible[i]);
       }
       all += boxes.size();
     }
@@ -121,16 +121,16 @@ TEST(BucketGrid, MeetWhatMayHideTheOpenPartOfAnEdge) {
       const auto from = static_cast<int>(random.below(16));
       const auto to = from + 1 + static_cast<int>(random.below(7));
       const OpenRange open(RationalParam::of(from, 23), RationalParam::of(to, 23));
-      std::vector<bool> seen(boxes.size());
+      std::vector<bool> visible(boxes.size());
       buckets.traverse(on_segment(a, b, open_box(a, b, open)), marks, [&](std::uint32_t i) {
-        seen[i] = true;
+        visible[i] = true;
         return true;
       });
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         const auto inside = [](double x, std::int64_t lo, std::int64_t hi) {
           return x > static_cast<double>(lo) + 1e-9 && x < static_cast<double>(hi) - 1e-9;
         };
-        for (int k = 1; k < 32 && !seen[i]; ++k) {
+        for (int k = 1; k < 32 && !visible[i]; ++k) {
           const double t = (from + (to - from) * k / 32.0) / 23;
           const double u = static_cast<double>(a.u) + t * static_cast<double>(b.u - a.u);
           const double v = static_cast<double>(a.v) + t * static_cast<double>(b.v - a.v);
@@ -143,7 +143,7 @@ TEST(BucketGrid, MeetWhatMayHideTheOpenPartOfAnEdge) {
   }
 }
 
-TEST(BucketGrid, AWalkEndsWhenTold) {
+TEST(BucketGrid, AWalkEndsOnRequest) {
   Random random(5);
   const std::vector<ViewBox> boxes = some_boxes(random, 16);
   const BucketGrid buckets = made(boxes, 16);
@@ -174,7 +174,7 @@ TEST(BucketGrid, TheirNumberFollowsTheData) {
   EXPECT_GE(BucketPlan(scattered).best_side(edges), 32U);
   EXPECT_LE(BucketPlan(upon_each_other).best_side(edges), 4U);
   EXPECT_GE(BucketPlan(scattered).best_side({}), 32U) << "nothing is known of others' edges";
-  // A number that was asked for is kept while it does not list the boxes over and over.
+  // A number that was requested is kept while it does not list the boxes over and over.
   EXPECT_EQ(BucketPlan(scattered).axes(256).u.count, 256U);
   EXPECT_LE(BucketPlan(upon_each_other).axes(4096).u.count, 32U);
   EXPECT_LE(BucketPlan(rows(2, 10)).axes(4096).u.count, 16U);

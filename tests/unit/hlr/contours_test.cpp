@@ -288,8 +288,8 @@ TEST(SceneOfAView, IsFinerOnlyWhereItShows) {
   plant.object(geometry::SpherePrimitive{60});
   const model::Scene& scene = plant.scene();
   const auto triangles = [&](const model::ViewTessellationOptions& sight) {
-    const auto seen = model::tessellate_for_view(scene, {}, sight, {}).value();
-    const model::Scene& made = seen ? *seen : scene;
+    const auto tessellated = model::tessellate_for_view(scene, {}, sight, {}).value();
+    const model::Scene& made = tessellated ? *tessellated : scene;
     return std::pair(made.shapes[0].parts[0].triangles.size(),
                      made.shapes[1].parts[0].triangles.size());
   };

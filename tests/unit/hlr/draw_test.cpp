@@ -212,7 +212,7 @@ TEST(Draw, RefusesWhatMakesNoSense) {
   EXPECT_TRUE(refused({.direction = {0, 0, 1}, .limits = {{{1, 0, 0}, {0, 0, 0}}}}, {}));
 }
 
-TEST(Draw, StopsWhenToldTo) {
+TEST(Draw, StopsOnRequest) {
   test::SceneBuilder scene;
   scene.object({{.parts = {box(0, 0, 0)}, .origin = {}}});
   const std::stop_source stop;

@@ -157,7 +157,7 @@ TEST(Hatch, WhatMakesNoSenseIsAnError) {
   }
 }
 
-TEST(Hatch, SheetsThatAreCutAreTold) {
+TEST(Hatch, SheetsThatAreCutAreReported) {
   test::SceneBuilder scene;
   test::HandPart sheet;
   sheet.vertices = {{0, 0, 0}, {1000 * kMm, 0, 0}, {0, 0, 1000 * kMm}};

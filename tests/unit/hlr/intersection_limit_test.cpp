@@ -45,11 +45,12 @@ TEST(IntersectionLimit, SkinsThatCrossEverywhereAreRefused) {
   SCOPED_TRACE(kSeed);
   test::SceneBuilder scene;
   for (const std::uint32_t k : {0U, 1U}) scene.object({{{soup(2900, kSeed + k)}, {}}});
-  const std::string told = error_of(scene, {});
-  EXPECT_NE(told.find("cross each other along more than 1580000 lines"), std::string::npos) << told;
-  EXPECT_NE(told.find("--intersections off"), std::string::npos) << told;
+  const std::string reported = error_of(scene, {});
+  EXPECT_NE(reported.find("cross each other along more than 1580000 lines"), std::string::npos)
+      << reported;
+  EXPECT_NE(reported.find("--intersections off"), std::string::npos) << reported;
   parallel::Team team(3);
-  EXPECT_EQ(error_of(scene, {.team = &team}), told);
+  EXPECT_EQ(error_of(scene, {.team = &team}), reported);
 }
 
 TEST(IntersectionLimit, WhatSmallSoupsHaveIsDrawn) {

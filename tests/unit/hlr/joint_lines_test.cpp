@@ -138,7 +138,7 @@ TEST(JointLines, ATeeHasItsSaddle) {
 }
 
 /// Made fine for the paper, its ends lie on both pipes to within the sag: a saddle without zigzag.
-TEST(JointLines, ASaddleIsAsFineAsTheDrawingAsksFor) {
+TEST(JointLines, ASaddleIsAsFineAsTheDrawingRequests) {
   for (const auto& [run, branch] : {std::pair{57.0, 36.0}, {57.0, 57.0}})
     for (const Vec3l& direction : kDirections)
       for (const double sag : {0.2, 0.05, 0.01}) {

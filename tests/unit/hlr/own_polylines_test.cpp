@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polylines and the faces of their own object: seen through them, or hidden by them if asked for.
+// Polylines and the faces of their own object: seen through them, or hidden by them if requested.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -96,7 +96,7 @@ TEST(OwnPolylines, ByDefaultAreSeenWhereHiddenLinesAreLeftOut) {
     }
 }
 
-TEST(OwnPolylines, AreHiddenInsideBehindAndOnTheBackIfAskedFor) {
+TEST(OwnPolylines, AreHiddenInsideBehindAndOnTheBackIfRequested) {
   for (const hlr::View& view : {iso(), from_an_eye()})
     for (const std::int32_t z : {-kSide / 4, 0, kMiddle})
       EXPECT_EQ(states(box_of({}), at_height(z), kHidden, view), States{State::hidden_by_self})

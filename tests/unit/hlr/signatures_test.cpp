@@ -196,7 +196,7 @@ TEST(Signatures, HatchesAndPartsLeftWholeShowInTheirObjects) {
 }
 
 /// A body that is looked at makes all of its shape finer, wherever they are.
-TEST(Signatures, FinenessThatAnotherObjectAsksForShows) {
+TEST(Signatures, FinenessThatAnotherObjectRequestsShows) {
   ChangingModel changing = four_objects();
   changing.objects()[1].bodies[0].placement.translation = {500, 0, 0};
   const hlr::View view{.direction = {0, 0, 1},

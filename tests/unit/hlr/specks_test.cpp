@@ -149,17 +149,18 @@ TEST(Specks, SolversAgreeAndHiddenPiecesDecideNothing) {
       }
     }
     options = {.contact_distance_mm = 0.003, .hidden = false};
-    const hlr::Drawing seen = drawn(scene, view.direction, options);
+    const hlr::Drawing visible_only = drawn(scene, view.direction, options);
     std::size_t next = 0;
     for (const hlr::EdgePiece& p : all.pieces) {
       if (p.state != State::visible) continue;
-      while (next < seen.pieces.size() && seen.pieces[next].state != State::visible) ++next;
-      ASSERT_LT(next, seen.pieces.size()) << seed;
-      ASSERT_EQ(seen.pieces[next].a, p.a) << seed;
-      ASSERT_EQ(seen.pieces[next].b, p.b) << seed;
+      while (next < visible_only.pieces.size() && visible_only.pieces[next].state != State::visible)
+        ++next;
+      ASSERT_LT(next, visible_only.pieces.size()) << seed;
+      ASSERT_EQ(visible_only.pieces[next].a, p.a) << seed;
+      ASSERT_EQ(visible_only.pieces[next].b, p.b) << seed;
       ++next;
     }
-    ASSERT_EQ(seen.account.fates, all.account.fates) << seed;
+    ASSERT_EQ(visible_only.account.fates, all.account.fates) << seed;
   }
   EXPECT_GT(specks, 100U);
 }

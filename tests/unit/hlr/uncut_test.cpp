@@ -41,7 +41,7 @@ test::SceneBuilder block_and_bolt(const Vec3i& lo = {40, 40, -20},
   return scene;
 }
 
-hlr::View seen_along_x(std::int64_t at_mm = 50) {
+hlr::View view_along_x(std::int64_t at_mm = 50) {
   return {.direction = {1, 0, 0}, .limits = {}, .sections = {{{1, 0, 0}, {at_mm * kMm, 0, 0}}}};
 }
 
@@ -71,7 +71,7 @@ bool is_of(const EdgePiece& p, std::uint32_t object) { return model::index(p.obj
 
 TEST(Uncut, IsDrawnWholeInFrontOfTheCut) {
   const test::SceneBuilder scene = block_and_bolt();
-  const hlr::Drawing drawing = draw(scene, seen_along_x(), {false, true});
+  const hlr::Drawing drawing = draw(scene, view_along_x(), {false, true});
   EXPECT_EQ(drawing.counters.uncut_objects, 1U);
   for (const EdgePiece& p : drawing.pieces) {
     if (!is_of(p, kBolt)) continue;
@@ -97,9 +97,9 @@ TEST(Uncut, HidesTheCutBehindIt) {
     });
   };
   const hlr::Options hatched{.hatches = {{45, 5}, {135, 5}}};
-  EXPECT_EQ(visible_hatch_behind(draw(scene, seen_along_x(), {false, true}, hatched)), 0);
+  EXPECT_EQ(visible_hatch_behind(draw(scene, view_along_x(), {false, true}, hatched)), 0);
   // Cut, both have a hatch.
-  const hlr::Drawing cut = draw(scene, seen_along_x(), {}, hatched);
+  const hlr::Drawing cut = draw(scene, view_along_x(), {}, hatched);
   EXPECT_EQ(cut.counters.uncut_objects, 0U);
   EXPECT_GT(
       length_mm(cut,
@@ -113,16 +113,16 @@ TEST(Uncut, IsOnlyWhatSomePlaneCutsAndNoneCutsAway) {
   const std::vector<std::tuple<std::int64_t, std::uint64_t>> cases{{39, 0}, {40, 0}, {41, 1},
                                                                    {59, 1}, {60, 1}, {61, 0}};
   for (const auto& [at_mm, expected] : cases)
-    EXPECT_EQ(left_whole(block_and_bolt(), seen_along_x(at_mm), bolt), expected) << at_mm;
+    EXPECT_EQ(left_whole(block_and_bolt(), view_along_x(at_mm), bolt), expected) << at_mm;
   // Beyond the plane it is cut away like everything else.
-  const hlr::Drawing away = draw(block_and_bolt(), seen_along_x(40), bolt);
+  const hlr::Drawing away = draw(block_and_bolt(), view_along_x(40), bolt);
   EXPECT_EQ(away.account.fates[kBolt], hlr::Fate::clipped);
 }
 
 TEST(Uncut, OfSeveralPlanesNoneMayCutItAway) {
   const std::vector<bool> bolt{false, true};
   const auto with = [](const hlr::Section& second) {
-    hlr::View view = seen_along_x();
+    hlr::View view = view_along_x();
     view.sections.push_back(second);
     return view;
   };
@@ -157,7 +157,7 @@ TEST(Uncut, ObjectsAreLeftWithAllTheirBodies) {
   test::SceneBuilder scene;
   scene.object({box({0, 0, 0}, {100, 100, 100})});
   scene.object({box({10, 110, 0}, {40, 140, 100}), box({60, 110, 0}, {90, 140, 100})});
-  const hlr::Drawing drawing = draw(scene, seen_along_x(), {false, true});
+  const hlr::Drawing drawing = draw(scene, view_along_x(), {false, true});
   EXPECT_EQ(drawing.counters.uncut_objects, 1U);
   for (const EdgePiece& p : drawing.pieces)
     if (is_of(p, 1)) {
@@ -166,7 +166,7 @@ TEST(Uncut, ObjectsAreLeftWithAllTheirBodies) {
 }
 
 TEST(Uncut, LimitsCutItAsEver) {
-  hlr::View view = seen_along_x();
+  hlr::View view = view_along_x();
   view.limits = geometry::Box3l{{0, 0, 0}, Vec3l{100, 100, 50} * kMm};
   const hlr::Drawing drawing = draw(block_and_bolt(), view, {false, true});
   EXPECT_EQ(drawing.counters.uncut_objects, 1U);
@@ -177,7 +177,7 @@ TEST(Uncut, LimitsCutItAsEver) {
 }
 
 TEST(Uncut, HasALineWhereItStandsOutOfACutWithoutAHole) {
-  hlr::View view = seen_along_x();
+  hlr::View view = view_along_x();
   view.direction = {4, -2, 1};
   const hlr::Drawing drawing =
       draw(block_and_bolt({45, 40, -20}, {60, 60, 120}), view, {false, true});
@@ -198,15 +198,15 @@ TEST(Uncut, HasALineWhereItStandsOutOfACutWithoutAHole) {
 
 TEST(Uncut, ASelectionOfTheWrongSizeIsRefused) {
   const auto drawing =
-      hlr::draw(block_and_bolt().scene(), {}, seen_along_x(), {.uncut = {true}}, {});
+      hlr::draw(block_and_bolt().scene(), {}, view_along_x(), {.uncut = {true}}, {});
   ASSERT_FALSE(drawing.has_value());
   EXPECT_EQ(drawing.error().code, ErrorCode::usage);
 }
 
-using Seen = std::tuple<std::uint32_t, std::uint32_t, EdgeKind, State, Vec3l, Vec3l>;
+using Observation = std::tuple<std::uint32_t, std::uint32_t, EdgeKind, State, Vec3l, Vec3l>;
 
-std::vector<Seen> seen_lines(const hlr::Drawing& drawing) {
-  std::vector<Seen> lines;
+std::vector<Observation> visible_lines(const hlr::Drawing& drawing) {
+  std::vector<Observation> lines;
   for (const EdgePiece& p : drawing.pieces)
     if (p.state != State::clipped)
       lines.emplace_back(model::index(p.object), model::index(p.other), p.kind, p.state, p.a, p.b);
@@ -237,7 +237,7 @@ TEST(Uncut, WhereAllIsLeftWholeTheRestIsCutAwayAndNothingElseChanges) {
     view.sections.clear();
     const auto expected = hlr::draw(scene.scene(), left, view, {}, {});
     ASSERT_TRUE(expected.has_value());
-    EXPECT_EQ(seen_lines(whole), seen_lines(*expected)) << "seed " << seed;
+    EXPECT_EQ(visible_lines(whole), visible_lines(*expected)) << "seed " << seed;
   }
 }
 

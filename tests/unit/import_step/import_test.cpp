@@ -173,7 +173,7 @@ TEST_F(StepImport, CurvedSolidsAreClosedAndTheirVolumesRight) {
     EXPECT_EQ(done.model->objects.size(), 6U);
     EXPECT_EQ(report().find("step-open-solid"), std::string::npos) << report();
     EXPECT_NEAR(volume_of(*done.model), done.volume, sag_mm * done.area);
-    // A sag that is not asked for would be within the other bound.
+    // A sag that is not requested would be within the other bound.
     EXPECT_GT(std::abs(volume_of(*done.model) - done.volume), 1e-4 * sag_mm * done.area);
     const Result<model::Scene> scene = model::make_scene(*done.model, {}, {});
     ASSERT_TRUE(scene);
@@ -202,7 +202,7 @@ std::optional<double> sag_in_ball(const model::Model& model, const model::Object
   return largest;
 }
 
-TEST_F(StepImport, TrianglesAreAsNearToTheirSurfacesAsTheySay) {
+TEST_F(StepImport, TrianglesAreAsNearToTheirSurfacesAsTheyState) {
   for (const double sag_mm : {0.5, 0.1, 0.02}) {
     const Import done = import(folder() / "curved.step", sag_mm);
     ASSERT_TRUE(done.model) << done.model.error().text();
@@ -348,7 +348,7 @@ TEST_F(StepImport, WhatIsNoModelIsRefusedWithAReason) {
   EXPECT_NE(refusal("a.step", "PK\x03\x04").find("zip archive"), std::string::npos);
 }
 
-TEST_F(StepImport, DamageIsToldWithItsLine) {
+TEST_F(StepImport, DamageIsReportedWithItsLine) {
   const std::string begin = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n";
   const std::string end = "ENDSEC;\nEND-ISO-10303-21;\n";
   const auto fault = [&](const std::string& data) {
@@ -371,7 +371,7 @@ TEST_F(StepImport, DamageIsToldWithItsLine) {
   const auto lacking = check_step_syntax(begin + "#1=A(#2,\n#7);\n#2=B(#7);\n" + end, "a.step");
   ASSERT_TRUE(lacking);
   EXPECT_EQ(lacking->missing, 2U);
-  EXPECT_EQ(lacking->told[0], "#1 in line 6 refers to #7, which is not there");
+  EXPECT_EQ(lacking->listed[0], "#1 in line 6 refers to #7, which is not there");
 }
 
 /// All files of STRAKE_DATA: read, or refused with a reason; volumes as Open CASCADE has them.

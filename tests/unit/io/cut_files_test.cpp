@@ -22,7 +22,7 @@ using test::RvmWriter;
 using test::Seed;
 
 /// Whether it is told that something is missing, and so that --strict and not_compared know.
-bool is_told(const Result<model::Model>& model) {
+bool is_reported(const Result<model::Model>& model) {
   if (!model) return true;
   const bool incomplete = std::ranges::any_of(model->objects, &model::Object::incomplete);
   return model->diagnostics.skipped() > 0 && (incomplete || model->files.at(0).ends_early);
@@ -32,12 +32,12 @@ bool is_told(const Result<model::Model>& model) {
 using Whole = std::function<bool(std::string_view rest)>;
 
 void cut_everywhere(const Reader& reader, const Seed& seed, const Whole& whole) {
-  EXPECT_FALSE(is_told(test::read_bytes(reader, seed.bytes, seed.name, {}))) << seed.name;
+  EXPECT_FALSE(is_reported(test::read_bytes(reader, seed.bytes, seed.name, {}))) << seed.name;
   for (std::size_t length = 0; length < seed.bytes.size(); ++length) {
     const std::string rest = seed.bytes.substr(0, length);
     const Result<model::Model> model = test::read_bytes(reader, rest, seed.name, {});
     if (whole(rest)) continue;
-    EXPECT_TRUE(is_told(model)) << seed.name << " cut at " << length << ":\n" << rest;
+    EXPECT_TRUE(is_reported(model)) << seed.name << " cut at " << length << ":\n" << rest;
   }
 }
 

@@ -118,7 +118,7 @@ TEST(GlbWriter, TurnsToMetresWithYUp) {
             (std::vector<float>{1.0F, 0.25F, -0.5F}));
 }
 
-TEST(GlbWriter, WritesMillimetresWithZUpWhenAsked) {
+TEST(GlbWriter, WritesMillimetresWithZUpWhenRequested) {
   WriteOptions options;
   options.millimetres_z_up = true;
   const Glb glb = write_and_split(test::sample_model(), options);
@@ -158,7 +158,7 @@ TEST(GlbWriter, WritesColoursAndLines) {
   EXPECT_EQ(indices["componentType"], 5123);
 }
 
-TEST(GlbWriter, MeshesSayHowExactTheyAreWhereAllOfThemIsKnown) {
+TEST(GlbWriter, MeshesStateHowExactTheyAreWhereAllOfThemIsKnown) {
   model::Model model;
   geometry::TriangleMesh flat = test::box_mesh(1000, 1000, 1000), round = flat;
   flat.sag_mm = 0;

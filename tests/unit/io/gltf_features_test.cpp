@@ -212,7 +212,7 @@ TEST(GltfFeatures, ColumnsShareTheWordsOfAnEnumeration) {
   EXPECT_FALSE(schema.property("d", "p").exists());
 }
 
-TEST(GltfFeatures, WhatCannotBeReadIsTold) {
+TEST(GltfFeatures, WhatCannotBeReadIsReported) {
   std::string bytes = document();
   const auto replaced = [&](const std::string& from, const std::string& to) {
     std::string other = bytes;

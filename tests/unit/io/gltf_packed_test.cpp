@@ -174,7 +174,7 @@ TEST(GltfPacked, QuantisedLinesAndInstances) {
       "");
 }
 
-TEST(GltfPacked, WhatItsBytesCannotHoldIsRefusedBeforeMemoryIsAskedFor) {
+TEST(GltfPacked, WhatItsBytesCannotHoldIsRefusedBeforeMemoryIsRequested) {
   std::vector<View> views{attributes(bytes_of(box_corners()), 12), triangles(box_indices(), 8)};
   views[0].words = R"("byteStride":12,"count":4000000000,"mode":"ATTRIBUTES")";
   const Result<model::Model> refused = read(document(views, kFloatAccessors, true));

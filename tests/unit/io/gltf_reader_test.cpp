@@ -110,7 +110,7 @@ TEST(GltfReader, FollowsTheHierarchy) {
   EXPECT_EQ(model.shapes.size(), 1U) << "one shape for one mesh";
 }
 
-TEST(GltfReader, SaysWhichIdsAreOnlyPositions) {
+TEST(GltfReader, StatesWhichIdsAreOnlyPositions) {
   const model::Model model = read_ok(
       triangle_glb(R"("nodes":[{"name":"deck","children":[1,2]},{"mesh":0},{"children":[3,4]},)"
                    R"({"name":"plate","mesh":0},{"name":"bolt","mesh":0,"extras":{"id":"B-7"}},)"
@@ -438,7 +438,7 @@ TEST(GltfReader, TakesColoursOfMaterials) {
   EXPECT_EQ(read_ok(parts.build()).bodies[0].color, (model::Color{255, 127, 0, 255}));
 }
 
-TEST(GltfReader, TellsOfNodesInOtherScenes) {
+TEST(GltfReader, ReportsNodesInOtherScenes) {
   constexpr const char* kTwo =
       R"("nodes":[{"name":"a","mesh":0},{"name":"b","mesh":0},{"name":"c"}])";
   const model::Model one =
@@ -450,14 +450,14 @@ TEST(GltfReader, TellsOfNodesInOtherScenes) {
   EXPECT_TRUE(both.diagnostics.kept().empty()) << "a node without a mesh is nobody's loss";
 }
 
-TEST(GltfReader, TellsOfMorphTargetsThatAreApplied) {
-  const auto told = [](const char* node) {
+TEST(GltfReader, ReportsMorphTargetsThatAreApplied) {
+  const auto reported = [](const char* node) {
     return read_ok(triangle_glb(fmt::format(R"("nodes":[{{"mesh":0{}}}])", node)))
         .diagnostics.count("gltf-morph");
   };
-  EXPECT_EQ(told(R"(,"weights":[0,0.5])"), 1U);
-  EXPECT_EQ(told(R"(,"weights":[0,0.0])"), 0U);
-  EXPECT_EQ(told(""), 0U);
+  EXPECT_EQ(reported(R"(,"weights":[0,0.5])"), 1U);
+  EXPECT_EQ(reported(R"(,"weights":[0,0.0])"), 0U);
+  EXPECT_EQ(reported(""), 0U);
   Parts parts;
   parts.more = R"(],"weights":[0.5],"extras":[1)";
   EXPECT_EQ(read_ok(parts.build()).diagnostics.count("gltf-morph"), 1U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small files that claim or ask for much: each is refused with a reason or read in time and memory
+// Small files that claim or request much: each is refused with a reason or read in time and memory
 // that its size justifies. Bounds of CPU time are ten times and more what is needed, and a small
 // part of what the file would take from a reader that believes it.
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ std::string document(const std::string& nodes, const std::string& mesh = {},
              bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}));
 }
 
-TEST(HostileGltf, ManyNodesThatSayNothing) {
+TEST(HostileGltf, ManyNodesThatStateNothing) {
   EXPECT_NE(reason(read_glb(document(repeated("{}", 2'000'000)))).find("more nodes"),
             std::string::npos);
   EXPECT_TRUE(read_glb(document(R"({"mesh":0},)" + repeated("{}", 100'000))).model);

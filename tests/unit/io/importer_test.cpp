@@ -105,7 +105,7 @@ echo '{"severity": "skipped", "code": "toy-lost", "object": "T7", "message": "no
   EXPECT_TRUE(is_tidy());
 }
 
-TEST_F(FakeImporters, AreToldOfASagOnlyWhereOneIsSaid) {
+TEST_F(FakeImporters, GetASagOnlyWhereOneIsStated) {
   play_well("echo \"$*\" >> " + (folder_.path() / "words").string());
   const auto words = [&] {
     std::ifstream in(folder_.path() / "words");
@@ -120,7 +120,7 @@ TEST_F(FakeImporters, AreToldOfASagOnlyWhereOneIsSaid) {
   EXPECT_EQ(calls(), 2U) << "another sag is another scene, and the same is found";
 }
 
-TEST_F(FakeImporters, WhatTheContentSaysWins) {
+TEST_F(FakeImporters, WhatTheContentStatesWins) {
   play_well();
   const fs::path glb = folder_.write("b.toy", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
   const Result<model::Model> model = read({glb});
@@ -140,12 +140,12 @@ TEST_F(FakeImporters, AreNamedByTheSchemaOfAStepFile) {
   EXPECT_TRUE(read({step}));
 }
 
-TEST_F(FakeImporters, WithoutOneTheErrorSaysWhatToInstall) {
-  const std::string said = read({folder_.write("a.ifc", "ISO-10303-21;\n")}).error().text();
-  EXPECT_NE(said.find("IFC files are read by an importer: pip install 'strake[ifc]'"),
+TEST_F(FakeImporters, WithoutOneTheErrorStatesWhatToInstall) {
+  const std::string stated = read({folder_.write("a.ifc", "ISO-10303-21;\n")}).error().text();
+  EXPECT_NE(stated.find("IFC files are read by an importer: pip install 'strake[ifc]'"),
             std::string::npos)
-      << said;
-  EXPECT_EQ(said.find('\n'), std::string::npos);
+      << stated;
+  EXPECT_EQ(stated.find('\n'), std::string::npos);
 }
 
 TEST_F(FakeImporters, AUnitThatIsGivenIsThatOfTheFile) {
@@ -183,7 +183,7 @@ TEST_F(FakeImporters, FailWithTheReasonThatTheyGive) {
   EXPECT_EQ(kept(), 0U) << "what failed is not kept";
 }
 
-TEST_F(FakeImporters, ThatOfAllSuffixesSaysWhatWasTriedBeforeIt) {
+TEST_F(FakeImporters, ThatOfAllSuffixesStatesWhatWasTriedBeforeIt) {
   play(R"(echo '{"error": "nothing reads .odd", "mend": "install one"}' >> "$report"; exit 1)");
   const fs::path any = bin_ / "strake-import";
   fs::copy_file(bin_ / "strake-import-toy", any);
@@ -237,7 +237,7 @@ TEST_F(FakeImporters, ASceneHoldsAllThatItShows) {
   EXPECT_TRUE(fs::exists(secret)) << "it was there to be read";
 }
 
-TEST_F(FakeImporters, SayWhereAFileLiesOnAMap) {
+TEST_F(FakeImporters, StateWhereAFileLiesOnAMap) {
   // A quarter turn to the left, 5 m east, 7 m north, 9 m up; the other lies a metre farther east.
   play(make_scene() + R"(east=5000; grep -q other "$input" && east=6000
 echo '{"made_by": "toy", "map": {"crs": "EPSG:1", "matrix": [0,1,0,0,-1,0,0,0,0,0,1,0,'$east',7000,9000.5,1]}}' >> "$report")");
@@ -459,7 +459,7 @@ TEST_F(FakeImporters, RunAtTheSameTimeWithThreadsSharedOut) {
   EXPECT_EQ(threads, "2\n2\n");
 }
 
-TEST_F(FakeImporters, TheFirstFileThatFailsIsTold) {
+TEST_F(FakeImporters, TheFirstFileThatFailsIsReported) {
   play(
       "case $input in *a.toy) sleep 0.3; echo '{\"error\": \"bad a\"}' >> $report; exit 1;; "
       "*b.toy) echo '{\"error\": \"bad b\"}' >> $report; exit 1;; *) sleep 60;; esac");
@@ -499,7 +499,7 @@ TEST(ImportReport, HoldsLittleWhateverIsWritten) {
   report.feed("\n{\"progress\": 0.1}\n");
   report.end();
   const Diagnostics& diagnostics = report.facts().diagnostics;
-  EXPECT_LE(diagnostics.counts().size(), ImportReport::kMostCodes + 3);
+  EXPECT_LE(diagnostics.counts().size(), ImportReport::kMaxCodes + 3);
   EXPECT_EQ(diagnostics.skipped(), 1U) << "a code that was one of warnings before";
   EXPECT_LT(diagnostics.kept().back().message.size(), 2000U);
   EXPECT_EQ(report.progress(), 1);

@@ -123,7 +123,7 @@ void append_random(std::mt19937& random, int depth, std::string& out) {
   out += object ? '}' : ']';
 }
 
-TEST(JsonValue, SaysTheSameInPiecesOfAnySize) {
+TEST(JsonValue, StatesTheSameInPiecesOfAnySize) {
   parallel::Team team(3);
   parallel::Context context;
   context.team = &team;
@@ -246,7 +246,7 @@ std::string random_document(std::mt19937& random) {
   return text + "}";
 }
 
-TEST(Document, SaysTheSameInPiecesOfAnySize) {
+TEST(Document, StatesTheSameInPiecesOfAnySize) {
   parallel::Team team(3);
   const parallel::Context context{.team = &team};
   std::size_t split = 0;

@@ -303,7 +303,7 @@ Result<Model> read_cylinder(const std::string& diagnostics, const std::string& o
 }
 
 /// Codes are shown as they are, and each is looked for among all.
-TEST(NeutralScene, CodesThatAreNoneAndTooManyAreToldAsOthers) {
+TEST(NeutralScene, CodesThatAreNoneAndTooManyAreReportedAsOthers) {
   const auto odd =
       read_cylinder(R"(["skipped","\u001b[31m","text","where"],["note","","",""])", "");
   ASSERT_TRUE(odd) << odd.error().text();
@@ -338,7 +338,7 @@ TEST(NeutralScene, DamagedBodiesAreSkippedAndNamed) {
   EXPECT_EQ(read->objects[1].body_count, 1U);
 }
 
-TEST(NeutralScene, SeedHasWhatItSays) {
+TEST(NeutralScene, SeedHasWhatItStates) {
   const Result<Model> read = test::read_bytes(*make_gltf_reader(), test::neutral_glb(), "x.glb");
   ASSERT_TRUE(read);
   ASSERT_EQ(read->bodies.size(), 3U);

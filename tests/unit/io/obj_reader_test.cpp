@@ -165,14 +165,14 @@ TEST(ObjReader, AppliesUnitAndUpAxis) {
 }
 
 TEST(ObjReader, NamesTheUnitThatTheUserGives) {
-  const auto told = [](double unit_mm) {
+  const auto reported = [](double unit_mm) {
     ReadOptions options;
     options.unit_mm = unit_mm;
     return read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options).files[0].unit;
   };
-  EXPECT_EQ(told(100), "dm (given)");
-  EXPECT_EQ(told(1e6), "km (given)");
-  EXPECT_EQ(told(914.4), "914.4 mm (given)");
+  EXPECT_EQ(reported(100), "dm (given)");
+  EXPECT_EQ(reported(1e6), "km (given)");
+  EXPECT_EQ(reported(914.4), "914.4 mm (given)");
 }
 
 TEST(ObjReader, TakesColoursFromTheLibraryBesideIt) {
@@ -263,7 +263,7 @@ TEST(ObjReader, ReadsNoLibraryFromElsewhere) {
   EXPECT_EQ(model->diagnostics.count("obj-material-library-refused"), 1U);
 }
 
-TEST(ObjReader, SkipsDamagedObjectsAndSaysWhere) {
+TEST(ObjReader, SkipsDamagedObjectsAndStatesWhere) {
   const model::Model model = read_ok(
       std::string(kTriangle) +
       "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nl 1 6\nf 1 2 6\n"
@@ -309,15 +309,15 @@ TEST(ObjReader, KeepsAnObjectWithoutTheFacesThatCannotBeRead) {
   EXPECT_EQ(mesh_of(model, 2).triangles.size(), 1U);
   EXPECT_EQ(model.diagnostics.count("mesh-face-left-out"), 2U);
   EXPECT_EQ(model.diagnostics.skipped(), 2U);
-  std::vector<Diagnostic> told;
+  std::vector<Diagnostic> reported;
   for (const Diagnostic& d : model.diagnostics.kept())
-    if (d.code == "mesh-face-left-out") told.push_back(d);
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].message,
+    if (d.code == "mesh-face-left-out") reported.push_back(d);
+  ASSERT_EQ(reported.size(), 2U);
+  EXPECT_EQ(reported[0].message,
             "object 'part' is kept without 3 faces and 1 line: one uses vertex 4, which has no "
             "readable place");
-  EXPECT_EQ(told[0].where, "some/model.obj:8");
-  EXPECT_EQ(told[1].message,
+  EXPECT_EQ(reported[0].where, "some/model.obj:8");
+  EXPECT_EQ(reported[1].message,
             "object 'one' is kept without 1 face: one uses vertex 4, which has no readable place");
 }
 
@@ -376,7 +376,7 @@ TEST(ObjReader, StatesThePrecisionOfItsText) {
       0.0005);
 }
 
-TEST(ObjReader, StopsWhenAsked) {
+TEST(ObjReader, StopsWhenRequested) {
   const std::stop_source stop;
   stop.request_stop();
   parallel::Context context;

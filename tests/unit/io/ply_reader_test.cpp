@@ -27,7 +27,7 @@ const std::string kVertices =
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "element face 1\nproperty list uchar int vertex_index\n";
 
-TEST(PlyReader, AllEncodingsSayTheSame) {
+TEST(PlyReader, AllEncodingsStateTheSame) {
   std::vector<model::Model> models;
   for (const test::Seed& seed : test::ply_seeds()) {
     Result<model::Model> model = read(seed.bytes);
@@ -94,7 +94,7 @@ TEST(PlyReader, CommentsThatAreNotCalledSo) {
   EXPECT_FALSE(read(text(kVertices + "proprty float w\n", "0")));
 }
 
-TEST(PlyReader, WhatIsWrongIsSaidAndWhere) {
+TEST(PlyReader, WhatIsWrongIsStatedAndWhere) {
   const auto refused = [](const std::string& bytes, const std::string& words) {
     const Result<model::Model> model = read(bytes);
     ASSERT_FALSE(model) << words;
@@ -127,7 +127,7 @@ TEST(PlyReader, ElementsWithoutPropertiesAreNotCounted) {
   EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).triangles.size(), 1U);
 }
 
-/// Counts that no file of this size can hold are refused before memory is asked for.
+/// Counts that no file of this size can hold are refused before memory is requested.
 TEST(PlyReader, HostileCountsAreRefused) {
   for (const char* const count : {"4294967295", "18446744073709551615", "1000000000000"}) {
     const std::string head = std::string("element vertex ") + count +

@@ -111,7 +111,7 @@ TEST(Precision, OfTextIsThatOfAnObjectsOwnDigits) {
   EXPECT_EQ(precisions_um(stl), (std::vector{5.0, 0.5}));
 }
 
-TEST(Precision, ThatMakesObjectsTouchIsToldOncePerFile) {
+TEST(Precision, ThatMakesObjectsTouchIsReportedOncePerFile) {
   RvmWriter w;
   w.head().modl();
   for (const float x : {1.0F, 8e6F, 1e6F, 4e3F})

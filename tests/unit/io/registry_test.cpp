@@ -69,9 +69,9 @@ TEST(Registry, NamesTheFileAndTheMend) {
   check(read({good, text}), text.string());
 }
 
-TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
+TEST(Registry, StatesHowAModelOfAnotherFormatIsConverted) {
   const test::TemporaryFolder folder;
-  const auto said = [&](const char* name) {
+  const auto stated = [&](const char* name) {
     // Without importers, which the machine may have: that of STEP is built beside this program.
     const std::array<FileToRead, 1> files{
         FileToRead{folder.write(name, "Dear reader,\nno model.\n"), {}}};
@@ -79,15 +79,15 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
   };
   const std::string formats =
       ": unsupported format (Strake reads RVM, glTF/GLB, OBJ, STL and PLY; ";
-  EXPECT_NE(said("a.txt").find(formats + "export the model as one of these; a program "
-                                         "strake-import-txt in PATH would be taken, too)"),
+  EXPECT_NE(stated("a.txt").find(formats + "export the model as one of these; a program "
+                                           "strake-import-txt in PATH would be taken, too)"),
             std::string::npos);
-  EXPECT_NE(said("a").find(formats + "export the model as one of these)"), std::string::npos);
-  EXPECT_NE(said("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
+  EXPECT_NE(stated("a").find(formats + "export the model as one of these)"), std::string::npos);
+  EXPECT_NE(stated("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
             std::string::npos);
-  EXPECT_NE(said("a.stp").find("./run step"), std::string::npos);
-  EXPECT_NE(said("a.brep").find(formats + "open it in a CAD program"), std::string::npos);
-  EXPECT_NE(said("a.fbx").find(formats + "open it in Blender"), std::string::npos);
+  EXPECT_NE(stated("a.stp").find("./run step"), std::string::npos);
+  EXPECT_NE(stated("a.brep").find(formats + "open it in a CAD program"), std::string::npos);
+  EXPECT_NE(stated("a.fbx").find(formats + "open it in Blender"), std::string::npos);
 }
 
 TEST(Registry, RefusesImpossibleQuestions) {

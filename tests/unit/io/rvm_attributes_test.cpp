@@ -46,7 +46,7 @@ TEST(RvmAttributes, ParsesBlocksKeysAndValues) {
 }
 
 /// Cut anywhere: what is left is refused, is told to end early, or holds only whole elements.
-TEST(RvmAttributes, WhatIsCutOffIsTold) {
+TEST(RvmAttributes, WhatIsCutOffIsReported) {
   const std::string text = attributes_of(
       "NEW /A\n Name:= '/A' &end& Type:= SITE\nNEW /B\n k:= 1\nEND\nEND\nNEW /C\n l:= 2\nEND\n");
   ASSERT_FALSE(rvm::parse_attributes(text)->ends_early);

@@ -239,7 +239,7 @@ TEST(RvmReader, PolygonsWithoutAreaKeepTheirEdges) {
   EXPECT_EQ(model->diagnostics.count("rvm-facet-polygon"), 0U);
 }
 
-TEST(RvmReader, LeavesOutBadPolygonsAndSaysSo) {
+TEST(RvmReader, LeavesOutBadPolygonsAndReportsIt) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   RvmWriter w;
   w.head().modl().cntb("/A");
@@ -279,12 +279,12 @@ TEST(RvmReader, NoBadNumberIsPassedOver) {
       {8, {10, 20}},
       {9, {10}},
       {10, {0, 10}}};
-  const auto check = [](const RvmWriter& w, std::uint32_t kind, std::size_t word, bool told) {
+  const auto check = [](const RvmWriter& w, std::uint32_t kind, std::size_t word, bool reported) {
     const auto model = read(w);
     ASSERT_TRUE(model) << model.error().text();
     ASSERT_EQ(model->objects.size(), 2U) << kind << ' ' << word;
-    EXPECT_EQ(model->objects[1].incomplete, told) << kind << ' ' << word;
-    EXPECT_EQ(model->diagnostics.skipped() > 0, told) << kind << ' ' << word;
+    EXPECT_EQ(model->objects[1].incomplete, reported) << kind << ' ' << word;
+    EXPECT_EQ(model->diagnostics.skipped() > 0, reported) << kind << ' ' << word;
     EXPECT_FALSE(model->diagnostics.kept().empty()) << kind << ' ' << word;
   };
   for (const std::uint32_t bits : {0x7FC00000U, 0x7F800000U, 0xFF800000U}) {

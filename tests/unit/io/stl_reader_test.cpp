@@ -85,7 +85,7 @@ TEST(StlReader, AppliesUnitAndUpAxis) {
   }
 }
 
-TEST(StlReader, SkipsDamagedSolidsAndSaysWhere) {
+TEST(StlReader, SkipsDamagedSolidsAndStatesWhere) {
   const std::string good(kText);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -132,11 +132,11 @@ TEST(StlReader, KeepsASolidWithoutTheFacetsThatCannotBeRead) {
   EXPECT_EQ(mesh.vertices.size(), 6U);
   for (const Vec3d& vertex : mesh.vertices) EXPECT_LE(vertex.x + vertex.y, 1);
   ASSERT_EQ(model->diagnostics.kept().size(), 1U);
-  const Diagnostic& told = model->diagnostics.kept()[0];
-  EXPECT_EQ(told.severity, Severity::skipped);
-  EXPECT_EQ(told.message,
+  const Diagnostic& reported = model->diagnostics.kept()[0];
+  EXPECT_EQ(reported.severity, Severity::skipped);
+  EXPECT_EQ(reported.message,
             "object 's' is kept without 5 faces: a vertex needs three finite numbers");
-  EXPECT_EQ(told.where, "some/part.stl:12");
+  EXPECT_EQ(reported.where, "some/part.stl:12");
 }
 
 TEST(StlReader, KeepsABinaryFileWithoutTheFacetsThatCannotBeRead) {
@@ -187,7 +187,7 @@ TEST(StlReader, IgnoresBytesBehindTheLastFacetWithAWarning) {
   EXPECT_FALSE(model->objects[0].incomplete);
 }
 
-TEST(StlReader, TellsOfASecondSolidThatItDoesNotRead) {
+TEST(StlReader, ReportsASecondSolidThatItDoesNotRead) {
   const Result<model::Model> model = read(binary("x", {kFacet}) + binary("y", {kFacet}));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->diagnostics.skipped(), 1U);

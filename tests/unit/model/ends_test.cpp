@@ -168,7 +168,7 @@ TEST(Ends, AFlatDiscHasNone) {
   EXPECT_EQ(ends_of_one(geometry::CylinderPrimitive{50, 1}).size(), 2U);
 }
 
-TEST(Ends, OnlyOfWhatIsAskedForAndOfPhysicalBodies) {
+TEST(Ends, OnlyOfWhatIsRequestedAndOfPhysicalBodies) {
   ClashModel m;
   m.object("a").body(geometry::CylinderPrimitive{50, 1000});
   m.object("b").again({});

@@ -49,7 +49,7 @@ TEST(Instancing, HashesAreTheSameWhereverAMeshStands) {
 
 // Otherwise each is compared with all before it: an exporter that splits the faces of a part anew
 // at every place makes thousands of them.
-TEST(Instancing, HashesTellTrianglesAndSagsOfTheSameVerticesApart) {
+TEST(Instancing, HashesDistinguishTrianglesAndSagsOfTheSameVertices) {
   std::set<std::uint64_t> hashes;
   for (const double sag : {0.0, 0.25, 0.5})
     for (unsigned diagonals = 0; diagonals < 64; ++diagonals) {

@@ -166,7 +166,7 @@ TEST(Model, RepeatedIdsGainNumbersThatAreFree) {
   EXPECT_EQ(m.bodies[m.objects[2].first_body].color.red, 2);
 }
 
-TEST(Model, IdsThatAreOnlyPositionsAreToldOncePerFile) {
+TEST(Model, IdsThatAreOnlyPositionsAreReportedOncePerFile) {
   Model m = one_file("a.obj", {"x", "y", "x", "node 1", "node 2"});
   m.objects[3].positional_id = m.objects[4].positional_id = true;
   append(m, one_file("b.obj", {"x"}));
@@ -211,7 +211,7 @@ std::vector<std::string> keys_of_files(
   return keys(m);
 }
 
-TEST(Model, NamesakesGainTheFoldersThatTellThemApart) {
+TEST(Model, NamesakesGainTheFoldersThatDistinguishThem) {
   const std::vector<std::string> two{"hull/m.obj:h", "outfit/m.obj:o"};
   EXPECT_EQ(keys_of_files({{"p/hull/", "m.obj", "h"}, {"p/outfit/", "m.obj", "o"}}), two);
   EXPECT_EQ(keys_of_files({{"p/outfit/", "m.obj", "o"}, {"p/hull/", "m.obj", "h"}}), two);
@@ -233,17 +233,17 @@ TEST(Model, NamesakesOfOneFolderAreNumberedByWhatTheyHold) {
   EXPECT_EQ(keys_of_files({{"p/", "m.obj", "a"}, {"p/", "m.obj", "b"}}), two);
 }
 
-TEST(Model, TellsOfFilesThatEndEarly) {
+TEST(Model, ReportsFilesThatEndEarly) {
   Model m = one_file("whole.rvm", {"1"});
-  std::vector<std::string> told{unread_rest(m)};
+  std::vector<std::string> reported{unread_rest(m)};
   for (const char* const label : {"cut.rvm", "half.rvm", "part.rvm"}) {
     append(m, one_file(label, {"1"}));
     m.files.back().ends_early = true;
-    told.push_back(unread_rest(m));
+    reported.push_back(unread_rest(m));
   }
   finish(m);
-  EXPECT_EQ(unread_rest(m), told.back());
-  EXPECT_EQ(told,
+  EXPECT_EQ(unread_rest(m), reported.back());
+  EXPECT_EQ(reported,
             (std::vector<std::string>{"", "the rest of cut.rvm, which ends early",
                                       "the rest of cut.rvm and 1 more file, which end early",
                                       "the rest of cut.rvm and 2 more files, which end early"}));

@@ -112,10 +112,10 @@ TEST(Scene, MeshesThatDifferInAnythingDoNotShare) {
   for (std::uint32_t i = 0; i < s.bodies.size(); ++i) EXPECT_EQ(s.bodies[i].grid_shape, i);
 }
 
-TEST(Scene, WhatIsToldOfAShapeIsToldOfAllItsBodies) {
+TEST(Scene, WhatIsReportedOfAShapeIsReportedOfAllItsBodies) {
   geometry::TriangleMesh turned = test::box_mesh({0, 0, 0}, {1, 1, 1});
   for (geometry::Triangle& t : turned.triangles) std::swap(t[1], t[2]);
-  const auto told = [&](int bodies) {
+  const auto reported = [&](int bodies) {
     Builder b;
     const ShapeId box = b.shape(turned);
     for (int i = 0; i < bodies; ++i) b.object(box, {{}, {i * 5.0, 0, 0}});
@@ -125,11 +125,11 @@ TEST(Scene, WhatIsToldOfAShapeIsToldOfAllItsBodies) {
       if (d.code == "mesh-inverted") return d.message;
     return std::string();
   };
-  EXPECT_EQ(told(1), "a solid had its faces pointing inwards; they were flipped");
-  EXPECT_EQ(told(2),
+  EXPECT_EQ(reported(1), "a solid had its faces pointing inwards; they were flipped");
+  EXPECT_EQ(reported(2),
             "a solid had its faces pointing inwards; they were flipped; likewise in 1 more body of "
             "the same shape");
-  EXPECT_EQ(told(4),
+  EXPECT_EQ(reported(4),
             "a solid had its faces pointing inwards; they were flipped; likewise in 3 more bodies "
             "of the same shape");
 }
@@ -226,7 +226,7 @@ TEST(Scene, InvertedSolidsAreReported) {
   EXPECT_EQ(b.scene().diagnostics.count("mesh-inverted"), 1U);
 }
 
-TEST(Scene, SurfacesThatDoNotCloseAreToldFromThoseThatFaceBothWays) {
+TEST(Scene, SurfacesThatDoNotCloseAreDistinguishedFromThoseThatFaceBothWays) {
   geometry::TriangleMesh turned = test::box_mesh({0, 0, 0}, {1, 1, 1}), open = turned;
   std::swap(turned.triangles[3][0], turned.triangles[3][1]);
   open.triangles.pop_back();

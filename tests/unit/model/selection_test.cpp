@@ -117,11 +117,11 @@ TEST_F(SelectionTest, LengthsAreComparedAndNotTheirRoundings) {
     const std::string in = std::to_string(inches) + "in";
     const int tenths = 254 * inches;
     const std::string mm = std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "mm";
-    for (const auto& [value, asked] : {std::pair(in, mm), std::pair(mm, in)}) {
+    for (const auto& [value, requested] : {std::pair(in, mm), std::pair(mm, in)}) {
       model_.objects[0].attributes = {{"L", value}};
-      EXPECT_EQ(picked("@L = " + asked), "p1") << value;
-      EXPECT_EQ(picked("@L >= " + asked + " and @L <= " + asked), "p1") << value;
-      EXPECT_EQ(picked("@L < " + asked + " or @L > " + asked), "") << value;
+      EXPECT_EQ(picked("@L = " + requested), "p1") << value;
+      EXPECT_EQ(picked("@L >= " + requested + " and @L <= " + requested), "p1") << value;
+      EXPECT_EQ(picked("@L < " + requested + " or @L > " + requested), "") << value;
     }
   }
 }
@@ -129,7 +129,7 @@ TEST_F(SelectionTest, LengthsAreComparedAndNotTheirRoundings) {
 TEST_F(SelectionTest, EqualIsWhatNeitherLessNorMoreIs) {
   struct Case {
     const char* value;
-    const char* asked;
+    const char* requested;
     bool equal;
   };
   for (const Case& c : std::vector<Case>{{"150mm", "150", true},
@@ -146,16 +146,16 @@ TEST_F(SelectionTest, EqualIsWhatNeitherLessNorMoreIs) {
                                          {"16bar", "16", false},
                                          {"150 x 20", "150", false}}) {
     model_.objects[0].attributes = {{"L", c.value}};
-    const std::string at(c.asked);
+    const std::string at(c.requested);
     EXPECT_EQ(picked("@L = " + at), c.equal ? "p1" : "") << c.value << " = " << at;
     EXPECT_EQ(picked("@L >= " + at + " and @L <= " + at), c.equal ? "p1" : "") << c.value;
     EXPECT_EQ(picked("@L != " + at + " and @L"), c.equal ? "" : "p1") << c.value << " != " << at;
   }
-  for (const auto& [value, asked] :
+  for (const auto& [value, requested] :
        {std::pair("007", "7"), std::pair("7", "007"), std::pair("1e2", "100"),
         std::pair("100", "1e2"), std::pair("1234567890123456789", "1234567890123456788")}) {
     model_.objects[0].attributes = {{"L", value}};
-    EXPECT_EQ(picked(std::string("@L = ") + asked), "") << value << " is a name, not a number";
+    EXPECT_EQ(picked(std::string("@L = ") + requested), "") << value << " is a name, not a number";
   }
 }
 
@@ -183,18 +183,18 @@ TEST_F(SelectionTest, ValuesAreReadAsDesignersWriteThem) {
 }
 
 TEST_F(SelectionTest, WhatPicksNothingNamesTheAttributesThereAre) {
-  const auto said = [&](const char* text) {
+  const auto stated = [&](const char* text) {
     return picks_nothing(Selection::parse(text).value(), model_);
   };
   EXPECT_EQ(
-      said("name = ghost and @Diameter > 5mm"),
+      stated("name = ghost and @Diameter > 5mm"),
       "'name = ghost and @Diameter > 5mm' picks no object: no object has an attribute @Diameter; "
       "there are @DN, @Spec, @Part, @Wall");
-  EXPECT_EQ(said("@DN = 7"), "'@DN = 7' picks no object");
-  EXPECT_EQ(said("ghost"), "'ghost' picks no object");
+  EXPECT_EQ(stated("@DN = 7"), "'@DN = 7' picks no object");
+  EXPECT_EQ(stated("ghost"), "'ghost' picks no object");
   for (int i = 0; i < 20; ++i)
     model_.objects[4].attributes.emplace_back("extra " + std::to_string(i), "");
-  EXPECT_EQ(said("@\"D\x07N\""),
+  EXPECT_EQ(stated("@\"D\x07N\""),
             "'@\"D\x07N\"' picks no object: no object has an attribute @D?N; there are @DN, @Spec, "
             "@Part, @Wall, @extra 0, @extra 1, @extra 10, @extra 11, @extra 12, @extra 13, "
             "@extra 14, @extra 15 and 12 more");
@@ -202,7 +202,7 @@ TEST_F(SelectionTest, WhatPicksNothingNamesTheAttributesThereAre) {
             "'@DN' picks no object: no object has an attribute @DN, nor any other");
 }
 
-TEST_F(SelectionTest, SaysByWhatItPicks) {
+TEST_F(SelectionTest, StatesByWhatItPicks) {
   const auto kinds = [](const char* text) {
     const Selection selection = Selection::parse(text).value();
     return std::pair(selection.tests_attributes(), selection.has_bare_pattern());

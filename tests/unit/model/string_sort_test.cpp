@@ -78,7 +78,7 @@ TEST(StringSort, AgreesWithComparisonOnAnyTexts) {
 }
 
 /// Returns texts in which runs of equal keys of all lengths begin anywhere, some longer than what a
-/// worker takes at once, and two texts are equal if that is asked for.
+/// worker takes at once, and two texts are equal if that is requested.
 std::vector<std::string> long_list(unsigned number, bool repeated) {
   std::mt19937 random(number);
   std::vector<std::string> texts;

@@ -71,7 +71,7 @@ Block many_rows(std::size_t rows) {
   return std::move(columns).finish();
 }
 
-TEST(Blocks, ColumnsAreWhatTheirDirectorySays) {
+TEST(Blocks, ColumnsAreWhatTheirDirectoryStates) {
   constexpr std::size_t kRows = 100'000;
   const Block block = many_rows(kRows);
   const std::string bytes = unpacked(written(block), block.bytes());
@@ -123,7 +123,7 @@ TEST(Blocks, BytesThatAreNoTextAreMended) {
   EXPECT_TRUE(unpacked(written(block), block.bytes()).ends_with("l\xef\xbf\xbd\xe2\x80\xae"));
 }
 
-TEST(Blocks, StopWhenTheyAreToldTo) {
+TEST(Blocks, StopOnRequest) {
   std::stop_source source;
   source.request_stop();
   const Status status =

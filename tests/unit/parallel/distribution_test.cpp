@@ -55,7 +55,7 @@ TEST(Distribution, coarser_chunks_leave_the_bytes_as_they_are) {
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     Team team(threads);
     for (const std::size_t chunk : {std::size_t{0}, std::size_t{16}, SIZE_MAX})
-      EXPECT_EQ(test::results({.team = &team, .least_chunk = chunk}, region, threads), expected)
+      EXPECT_EQ(test::results({.team = &team, .min_chunk = chunk}, region, threads), expected)
           << threads << " threads, chunks of " << chunk;
   }
 }

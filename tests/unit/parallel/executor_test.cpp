@@ -28,7 +28,7 @@ struct Host {
   HostExecutor::Call call;
 };
 
-/// The first three do what they are asked to.
+/// The first three do what they are requested to.
 std::vector<Host> hosts() {
   return {
       {"threads", on_threads},

@@ -18,20 +18,20 @@ using test::everywhere;
 
 constexpr std::size_t kItems = test::kEverywhereItems;
 
-TEST(Find, the_lowest_is_found_and_all_below_it_are_asked) {
+TEST(Find, the_lowest_is_found_and_all_below_it_are_requested) {
   for (const std::size_t step : {std::size_t{1}, std::size_t{97}, std::size_t{500}, kItems})
     for (const std::size_t grain : {1U, 16U, 2000U})
       everywhere(grain, [&](const Context& context, const Region& region) {
-        std::vector<std::uint8_t> asked(kItems, 0);
+        std::vector<std::uint8_t> calls(kItems, 0);
         const auto found = find_first(context, region, [&](std::size_t i) {
-          ++asked[i];
+          ++calls[i];
           return i % step == step - 1;
         });
         ASSERT_TRUE(found);
         ASSERT_TRUE(found->has_value());
         EXPECT_EQ(**found, step - 1);
         for (std::size_t i = 0; i < kItems; ++i)
-          ASSERT_TRUE(i < step ? asked[i] == 1 : asked[i] <= 1) << i;
+          ASSERT_TRUE(i < step ? calls[i] == 1 : calls[i] <= 1) << i;
       });
 }
 
@@ -73,30 +73,30 @@ TEST(Find, what_is_far_above_is_left_out) {
 
 TEST(Find, all_workers_go_from_below) {
   HostExecutor host = test::second_first();  // what one alone would ask
-  std::size_t asked = 0;
+  std::size_t calls = 0;
   const auto found =
       find_first({.team = &host}, {.name = "low", .n = 1'000'000}, [&](std::size_t i) {
-        ++asked;
+        ++calls;
         return i == 10;
       });
   ASSERT_TRUE(found);
   EXPECT_EQ(found->value(), 10U);
-  EXPECT_EQ(asked, 11U);
+  EXPECT_EQ(calls, 11U);
 }
 
 TEST(Find, the_counter_does_not_come_round_again) {
   // 64 workers and more than 2^64 items that they could take: one after the other, each once.
   HostExecutor host(64, [](unsigned, const HostExecutor::Body&) {});
   constexpr std::size_t kMany = std::size_t{1} << 60U;
-  std::size_t asked = 0;
+  std::size_t calls = 0;
   const auto found =
       find_first({.team = &host}, {.name = "wide", .n = kMany, .chunk = kMany}, [&](std::size_t i) {
-        ++asked;
+        ++calls;
         return i == 5;
       });
   ASSERT_TRUE(found);
   EXPECT_EQ(found->value(), 5U);
-  EXPECT_EQ(asked, 6U);
+  EXPECT_EQ(calls, 6U);
 }
 
 TEST(Find, an_exception_counts_only_below_the_found) {

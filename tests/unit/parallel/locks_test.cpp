@@ -174,7 +174,7 @@ TEST(Marks, are_down_until_they_are_set) {
 
 TEST(Allowance, is_used_up_to_the_last_and_no_further) {
   Allowance five(5);
-  EXPECT_EQ(five.most(), 5U);
+  EXPECT_EQ(five.limit(), 5U);
   EXPECT_TRUE(five.take(3));
   EXPECT_TRUE(five.take(2));
   EXPECT_TRUE(five.take(0));
@@ -189,7 +189,7 @@ TEST(Allowance, does_not_overflow) {
   EXPECT_FALSE(small.take(kMax));
   EXPECT_FALSE(small.take(kMax));
   Allowance all(kMax);
-  EXPECT_EQ(all.most(), kMax - 1);
+  EXPECT_EQ(all.limit(), kMax - 1);
   EXPECT_TRUE(all.take(kMax - 1));
   EXPECT_FALSE(all.take(1));
   EXPECT_FALSE(Allowance(kMax).take(kMax));
@@ -198,15 +198,15 @@ TEST(Allowance, does_not_overflow) {
 TEST(Allowance, whether_all_fits_does_not_depend_on_the_team) {
   constexpr std::uint64_t kNeeded = 1000 * 999 / 2;
   for (const unsigned threads : {1U, 2U, 8U})
-    for (const std::uint64_t most : {kNeeded - 1, kNeeded}) {
+    for (const std::uint64_t limit : {kNeeded - 1, kNeeded}) {
       Team team(threads);
-      Allowance allowance(most);
+      Allowance allowance(limit);
       const Status status =
           for_each({.team = &team}, {.name = "takes", .n = 1000}, [&](std::size_t i) -> Status {
             if (allowance.take(i)) return {};
             return Error{ErrorCode::input, "too many", {}, {}};
           });
-      EXPECT_EQ(static_cast<bool>(status), most == kNeeded);
+      EXPECT_EQ(static_cast<bool>(status), limit == kNeeded);
     }
 }
 

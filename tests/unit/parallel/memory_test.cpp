@@ -143,17 +143,17 @@ TEST(Offsets, AreTheSumsForAnyTeam) {
     for (const unsigned workers : kTeams) {
       Team team(workers);
       std::vector<std::size_t> summed = lengths;
-      ASSERT_TRUE(detail::sum_up({.team = &team}, summed));
+      ASSERT_TRUE(detail::prefix_sum({.team = &team}, summed));
       EXPECT_EQ(summed, expected) << n << " lengths, " << workers << " workers";
       summed = lengths;
-      ASSERT_TRUE(detail::sum_up({}, summed));
+      ASSERT_TRUE(detail::prefix_sum({}, summed));
       EXPECT_EQ(summed, expected);
     }
   }
 }
 
 TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
   // Within a run, between two, and the most that can be counted.
   for (const auto& [first, second, good] :
        {std::tuple(10U, 20U, false), std::tuple(10U, 40'000U, false), std::tuple(10U, 10U, true)}) {
@@ -161,8 +161,8 @@ TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
       Team team(workers);
       std::vector<std::size_t> lengths(50'000);
       lengths[second] = 1;
-      lengths[first] = kMost;
-      const Status summed = detail::sum_up({.team = &team}, lengths);
+      lengths[first] = kMax;
+      const Status summed = detail::prefix_sum({.team = &team}, lengths);
       EXPECT_EQ(static_cast<bool>(summed), good) << first << ", " << second;
       if (!summed) {
         EXPECT_EQ(summed.error().code, ErrorCode::input);
@@ -213,7 +213,7 @@ TEST(ItemsByKey, OfNoKeysAreNone) {
   EXPECT_EQ(lists->size(), 0U);
 }
 
-TEST(Deal, TellsOfTheLowestItemThatFails) {
+TEST(Deal, ReportsTheLowestItemThatFails) {
   Team team(3);
   const auto dealt = deal<std::size_t, 2>(
       {.team = &team}, "dealt", 100'000,

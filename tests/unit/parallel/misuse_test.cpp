@@ -45,13 +45,12 @@
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
 constexpr std::array kWorkers = {1U, 2U, 3U, 8U, 64U};
 
 TEST(Misuse, a_chunk_of_any_size_runs_every_item_once) {
   for (const unsigned workers : kWorkers)
-    for (const std::size_t chunk :
-         {kMost, kMost / 2 + 1, kMost / 4 + 1, kMost - 1, std::size_t{0}}) {
+    for (const std::size_t chunk : {kMax, kMax / 2 + 1, kMax / 4 + 1, kMax - 1, std::size_t{0}}) {
       Team team(workers);
       std::vector<std::atomic<int>> runs(100);
       for (int round = 0; round < 20; ++round)
@@ -87,37 +86,37 @@ TEST(Misuse, an_order_that_is_no_permutation_is_an_error) {
 
 TEST(Misuse, blocks_at_the_end_of_all_numbers_are_run) {
   // Two blocks of which the second would end beyond what a number holds.
-  constexpr std::size_t kGrain = kMost / 2 + 2;
+  constexpr std::size_t kGrain = kMax / 2 + 2;
   const std::vector<std::uint32_t> second_first = {1, 0};
-  std::optional<std::size_t> seen;
+  std::optional<std::size_t> observed;
   const Status status =
       for_each({}, {.name = "h", .n = kGrain + 5, .grain = kGrain, .order = second_first},
                [&](std::size_t i) -> Status {
-                 if (!seen) seen = i;
+                 if (!observed) observed = i;
                  return Error{ErrorCode::input, "enough", {}, {}};
                });
   EXPECT_FALSE(status);
-  EXPECT_EQ(seen, kGrain);
+  EXPECT_EQ(observed, kGrain);
 }
 
 TEST(Misuse, more_than_can_be_counted_is_an_error) {
   const auto one = [](std::size_t /*i*/) { return std::size_t{1}; };
-  const auto half = [](std::size_t /*i*/) { return kMost / 2 + 1; };
+  const auto half = [](std::size_t /*i*/) { return kMax / 2 + 1; };
   const auto fill = [](std::size_t /*i*/, std::span<int> /*out*/) {};
   const auto none = [](std::size_t /*row*/, std::size_t /*column*/) {};
-  EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = kMost}, one, fill).error().code,
+  EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = kMax}, one, fill).error().code,
             ErrorCode::memory);
   EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = 2}, half, fill).error().message,
             "more elements than can be counted");
-  EXPECT_EQ(for_each_nested({}, {.name = "h"}, kMost, one, none).error().code, ErrorCode::memory);
+  EXPECT_EQ(for_each_nested({}, {.name = "h"}, kMax, one, none).error().code, ErrorCode::memory);
   EXPECT_EQ(for_each_nested({}, {.name = "h"}, 2, half, none).error().message,
             "more elements than can be counted");
-  EXPECT_EQ(collect<int>({}, {.name = "h", .n = kMost},
+  EXPECT_EQ(collect<int>({}, {.name = "h", .n = kMax},
                          [](std::size_t /*i*/, std::vector<int>& /*out*/) {})
                 .error()
                 .code,
             ErrorCode::memory);
-  EXPECT_EQ(transform({}, {.name = "h", .n = kMost}, [](std::size_t i) { return i; }).error().code,
+  EXPECT_EQ(transform({}, {.name = "h", .n = kMax}, [](std::size_t i) { return i; }).error().code,
             ErrorCode::memory);
 }
 
@@ -177,7 +176,7 @@ TEST(Misuse, exceptions_of_everything_that_is_called_are_errors_with_their_place
 }
 
 /// The items of distinct() go through lots by their hashes, which must not show.
-TEST(Misuse, the_lowest_that_cannot_be_compared_is_told_whatever_the_hash) {
+TEST(Misuse, the_lowest_that_cannot_be_compared_is_reported_whatever_the_hash) {
   for (const unsigned workers : kWorkers) {
     Team team(workers);
     for (const std::uint64_t salt : {0U, 1U, 2U, 3U}) {
@@ -196,17 +195,17 @@ TEST(Misuse, the_lowest_that_cannot_be_compared_is_told_whatever_the_hash) {
 TEST(Misuse, items_of_one_hash_can_be_stopped) {
   Team team(2);
   std::stop_source source;
-  std::atomic<std::uint64_t> asked{0};
+  std::atomic<std::uint64_t> calls{0};
   const auto kinds = distinct(
       {.team = &team, .stop = source.get_token()}, "d", 30000,
       [](std::size_t) { return std::uint64_t{7}; },
       [&](std::size_t, std::size_t) {
-        if (++asked == 1000) source.request_stop();
+        if (++calls == 1000) source.request_stop();
         return false;
       });
   ASSERT_FALSE(kinds);
   EXPECT_EQ(kinds.error().code, ErrorCode::cancelled);
-  EXPECT_LT(asked, 10000U) << "of some 450 million";
+  EXPECT_LT(calls, 10000U) << "of some 450 million";
 }
 
 TEST(Misuse, a_cost_that_throws_names_its_key) {
@@ -260,7 +259,7 @@ TEST(Misuse, what_is_left_beside_a_heavy_item_is_not_short) {
   EXPECT_EQ(report.regions().front().items, 6U) << "all of them are reported";
 }
 
-TEST(Misuse, a_stop_before_the_start_is_told_before_a_cost_or_length_that_throws) {
+TEST(Misuse, a_stop_before_the_start_is_reported_before_a_cost_or_length_that_throws) {
   const std::stop_source source;
   source.request_stop();
   const Context context{.stop = source.get_token()};
@@ -274,7 +273,7 @@ TEST(Misuse, a_stop_before_the_start_is_told_before_a_cost_or_length_that_throws
   EXPECT_EQ(nested.error().code, ErrorCode::cancelled);
 }
 
-TEST(Misuse, a_stop_that_meets_an_error_is_told_as_a_stop) {
+TEST(Misuse, a_stop_that_meets_an_error_is_reported_as_a_stop) {
   // The stop comes from another thread, at any moment of the error's way out.
   Team team(2);
   for (int round = 0; round < 600; ++round) {

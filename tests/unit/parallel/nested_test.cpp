@@ -43,14 +43,14 @@ TEST(Nested, every_element_once_with_its_row_and_column) {
 TEST(Nested, an_order_may_be_given) {
   std::vector<std::uint32_t> backwards(10);
   std::iota(backwards.rbegin(), backwards.rend(), 0U);
-  std::vector<std::pair<std::size_t, std::size_t>> seen;
+  std::vector<std::pair<std::size_t, std::size_t>> observed;
   ASSERT_TRUE(for_each_nested(
       {}, {.name = "backwards", .order = backwards}, 4, [](std::size_t row) { return row + 1; },
-      [&](std::size_t row, std::size_t column) { seen.emplace_back(row, column); }));
+      [&](std::size_t row, std::size_t column) { observed.emplace_back(row, column); }));
   std::vector<std::pair<std::size_t, std::size_t>> expected;
   for (std::size_t row = 4; row-- > 0;)
     for (std::size_t column = row + 1; column-- > 0;) expected.emplace_back(row, column);
-  EXPECT_EQ(seen, expected);
+  EXPECT_EQ(observed, expected);
 }
 
 TEST(Nested, the_lowest_failing_element_is_reported) {

@@ -69,11 +69,11 @@ namespace {
 
 enum class Outcome : std::uint8_t { right, error, wrong };
 
-Outcome judged(const Status& status, bool right) {
+Outcome outcome_of(const Status& status, bool right) {
   return !status ? Outcome::error : right ? Outcome::right : Outcome::wrong;
 }
 template <class T, class Right>
-Outcome judged(const Result<T>& result, Right&& right) {
+Outcome outcome_of(const Result<T>& result, Right&& right) {
   return !result ? Outcome::error : right(*result) ? Outcome::right : Outcome::wrong;
 }
 
@@ -111,7 +111,7 @@ Outcome pipeline_run(const Context& context, bool fails) {
         return item + item;
       },
       [&](std::string&& result) { written += result.size(); });
-  return judged(status, !fails && written == kItems * 80);
+  return outcome_of(status, !fails && written == kItems * 80);
 }
 
 std::vector<Pattern> patterns() {
@@ -119,83 +119,85 @@ std::vector<Pattern> patterns() {
   const std::string identity = text(0);
   return {
       {"for_each",
-       [](const Context& c) { return judged(for_each(c, kRegion, [](std::size_t) {}), true); }},
+       [](const Context& c) { return outcome_of(for_each(c, kRegion, [](std::size_t) {}), true); }},
       {"for_each, shares for all workers",
        [](const Context& c) {
          constexpr std::size_t kMany = 1000;
          std::atomic<std::size_t> runs{0};
          const Status status =
              for_each(c, {.name = kName, .n = kMany}, [&](std::size_t) { ++runs; });
-         return judged(status, runs == kMany);
+         return outcome_of(status, runs == kMany);
        }},
       {"for_each, a Status",
        [](const Context& c) {
-         return judged(for_each(c, kRegion,
-                                [](std::size_t i) -> Status {
-                                  if (i == 40) return an_error();
-                                  return {};
-                                }),
-                       false);
+         return outcome_of(for_each(c, kRegion,
+                                    [](std::size_t i) -> Status {
+                                      if (i == 40) return an_error();
+                                      return {};
+                                    }),
+                           false);
        }},
       {"for_each, an exception",
        [](const Context& c) {
-         return judged(for_each(c, kRegion,
-                                [](std::size_t i) {
-                                  if (i == 40) throw std::runtime_error(text(i));
-                                }),
-                       false);
+         return outcome_of(for_each(c, kRegion,
+                                    [](std::size_t i) {
+                                      if (i == 40) throw std::runtime_error(text(i));
+                                    }),
+                           false);
        }},
       {"transform",
        [](const Context& c) {
-         return judged(transform(c, kRegion, text),
-                       [](const auto& all) { return all.size() == kItems; });
+         return outcome_of(transform(c, kRegion, text),
+                           [](const auto& all) { return all.size() == kItems; });
        }},
       {"collect",
        [](const Context& c) {
-         return judged(collect<std::string>(c, kRegion,
-                                            [](std::size_t i, std::vector<std::string>& out) {
-                                              out.push_back(text(i));
-                                            }),
-                       [](const auto& all) { return all.size() == kItems; });
+         return outcome_of(collect<std::string>(c, kRegion,
+                                                [](std::size_t i, std::vector<std::string>& out) {
+                                                  out.push_back(text(i));
+                                                }),
+                           [](const auto& all) { return all.size() == kItems; });
        }},
       {"count_fill",
        [](const Context& c) {
-         return judged(count_fill<int>(
-                           c, kRegion, [](std::size_t i) { return i % 3; },
-                           [](std::size_t i, std::span<int> out) {
-                             for (int& value : out) value = static_cast<int>(i);
-                           }),
-                       [](const auto& packed) { return packed.values.size() == kItems; });
+         return outcome_of(count_fill<int>(
+                               c, kRegion, [](std::size_t i) { return i % 3; },
+                               [](std::size_t i, std::span<int> out) {
+                                 for (int& value : out) value = static_cast<int>(i);
+                               }),
+                           [](const auto& packed) { return packed.values.size() == kItems; });
        }},
       {"reduce",
        [](const Context& c) {
-         return judged(reduce(
-                           c, kRegion, std::string(),
-                           [](std::string& partial, std::size_t i) { partial += text(i); },
-                           [](std::string& into, const std::string& partial) { into += partial; }),
-                       [](const std::string& all) { return all.size() == kItems * 40; });
+         return outcome_of(
+             reduce(
+                 c, kRegion, std::string(),
+                 [](std::string& partial, std::size_t i) { partial += text(i); },
+                 [](std::string& into, const std::string& partial) { into += partial; }),
+             [](const std::string& all) { return all.size() == kItems * 40; });
        }},
       {"reduce, short",
        [identity](const Context& c) {
          Region region = kRegion;
          region.alone_below = kItems + 1;
-         return judged(reduce(
-                           c, region, identity,
-                           [](std::string& partial, std::size_t i) { partial += text(i); },
-                           [](std::string& into, const std::string& partial) { into += partial; }),
-                       [](const std::string& all) { return all.size() == 40 * (kItems + 2); });
+         return outcome_of(
+             reduce(
+                 c, region, identity,
+                 [](std::string& partial, std::size_t i) { partial += text(i); },
+                 [](std::string& into, const std::string& partial) { into += partial; }),
+             [](const std::string& all) { return all.size() == 40 * (kItems + 2); });
        }},
       {"find_first",
        [](const Context& c) {
-         return judged(find_first(c, kRegion, [](std::size_t i) { return i == 33; }),
-                       [](const auto& found) { return found == 33; });
+         return outcome_of(find_first(c, kRegion, [](std::size_t i) { return i == 33; }),
+                           [](const auto& found) { return found == 33; });
        }},
       {"distinct",
        [](const Context& c) {
-         return judged(distinct(
-                           c, kName, kItems, [](std::size_t i) { return mixed(0, i % 7); },
-                           [](std::size_t i, std::size_t j) { return i % 7 == j % 7; }),
-                       [](const Distinct& kinds) { return kinds.first.size() == 7; });
+         return outcome_of(distinct(
+                               c, kName, kItems, [](std::size_t i) { return mixed(0, i % 7); },
+                               [](std::size_t i, std::size_t j) { return i % 7 == j % 7; }),
+                           [](const Distinct& kinds) { return kinds.first.size() == 7; });
        }},
       {"for_each_by_weight",
        [](const Context& c) {
@@ -203,7 +205,7 @@ std::vector<Pattern> patterns() {
          const Status status = for_each_by_weight(
              c, kRegion, 2, [](std::size_t i) { return i == 7 ? 1e6 : 1.0; },
              [&](std::size_t /*i*/) { ++runs; });
-         return judged(status, runs == kItems);
+         return outcome_of(status, runs == kItems);
        }},
       {"for_each_nested",
        [](const Context& c) {
@@ -211,13 +213,13 @@ std::vector<Pattern> patterns() {
          const Status status = for_each_nested(
              c, kRegion, 10, [](std::size_t row) { return row; },
              [&](std::size_t /*row*/, std::size_t /*column*/) { ++runs; });
-         return judged(status, runs == 45);
+         return outcome_of(status, runs == 45);
        }},
       {"pieces",
        [](const Context& /*c*/) {
-         return judged(pieces(
-                           10, [](std::size_t i) { return i; }, 2),
-                       [](const auto& all) { return all.size() == 25; });
+         return outcome_of(pieces(
+                               10, [](std::size_t i) { return i; }, 2),
+                           [](const auto& all) { return all.size() == 25; });
        }},
       {"for_each_reserved",
        [](const Context& c) {
@@ -226,117 +228,120 @@ std::vector<Pattern> patterns() {
              c, {.name = kName, .n = kItems}, 5,
              [](std::size_t i, Claims& claims) { claims(i % 5); },
              [&](std::size_t /*i*/) { ++runs; });
-         return judged(run, [&](const ReservedRun&) { return runs == kItems; });
+         return outcome_of(run, [&](const ReservedRun&) { return runs == kItems; });
        }},
       {"transform, an error",
        [](const Context& c) {
-         return judged(transform(c, kRegion,
-                                 [](std::size_t i) -> Result<int> {
-                                   if (i == 40) return an_error();
-                                   return 1;
-                                 }),
-                       [](const auto&) { return false; });
+         return outcome_of(transform(c, kRegion,
+                                     [](std::size_t i) -> Result<int> {
+                                       if (i == 40) return an_error();
+                                       return 1;
+                                     }),
+                           [](const auto&) { return false; });
        }},
       {"transform_until, an exception",
        [](const Context& c) {
-         return judged(transform_until(
-                           c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1 : 0; },
-                           [](int) { return false; }),
-                       [](const auto&) { return false; });
+         return outcome_of(transform_until(
+                               c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1 : 0; },
+                               [](int) { return false; }),
+                           [](const auto&) { return false; });
        }},
       {"find_first, an exception",
        [](const Context& c) {
-         return judged(find_first(c, kRegion, fails_at_40), [](const auto&) { return false; });
+         return outcome_of(find_first(c, kRegion, fails_at_40), [](const auto&) { return false; });
        }},
       {"all_of, an exception",
        [](const Context& c) {
-         return judged(all_of(c, kRegion, [](std::size_t i) { return !fails_at_40(i); }),
-                       [](bool) { return false; });
+         return outcome_of(all_of(c, kRegion, [](std::size_t i) { return !fails_at_40(i); }),
+                           [](bool) { return false; });
        }},
       {"collect, an error",
        [](const Context& c) {
-         return judged(collect<int>(c, kRegion,
-                                    [](std::size_t i, std::vector<int>& out) -> Status {
-                                      out.push_back(1);
-                                      if (i == 40) return an_error();
-                                      return {};
-                                    }),
-                       [](const auto&) { return false; });
+         return outcome_of(collect<int>(c, kRegion,
+                                        [](std::size_t i, std::vector<int>& out) -> Status {
+                                          out.push_back(1);
+                                          if (i == 40) return an_error();
+                                          return {};
+                                        }),
+                           [](const auto&) { return false; });
        }},
       {"reduce, an error",
        [](const Context& c) {
-         return judged(reduce(
-                           c, kRegion, 0,
-                           [](int& partial, std::size_t i) -> Status {
-                             partial += 1;
-                             if (i == 40) return an_error();
-                             return {};
-                           },
-                           [](int& into, int partial) { into += partial; }),
-                       [](int) { return false; });
+         return outcome_of(reduce(
+                               c, kRegion, 0,
+                               [](int& partial, std::size_t i) -> Status {
+                                 partial += 1;
+                                 if (i == 40) return an_error();
+                                 return {};
+                               },
+                               [](int& into, int partial) { into += partial; }),
+                           [](int) { return false; });
        }},
       {"count_fill, an exception of count",
        [](const Context& c) {
-         return judged(count_fill<int>(
-                           c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1U : 2U; },
-                           [](std::size_t, std::span<int>) {}),
-                       [](const auto&) { return false; });
+         return outcome_of(count_fill<int>(
+                               c, kRegion, [](std::size_t i) { return fails_at_40(i) ? 1U : 2U; },
+                               [](std::size_t, std::span<int>) {}),
+                           [](const auto&) { return false; });
        }},
       {"distinct, an exception of hash",
        [](const Context& c) {
-         return judged(distinct(
-                           c, kName, kItems,
-                           [](std::size_t i) -> std::uint64_t { return fails_at_40(i) ? 1 : 0; },
-                           [](std::size_t, std::size_t) { return true; }),
-                       [](const auto&) { return false; });
+         return outcome_of(
+             distinct(
+                 c, kName, kItems,
+                 [](std::size_t i) -> std::uint64_t { return fails_at_40(i) ? 1 : 0; },
+                 [](std::size_t, std::size_t) { return true; }),
+             [](const auto&) { return false; });
        }},
       {"distinct, an exception of same",
        [](const Context& c) {
-         return judged(distinct(
-                           c, kName, kItems, [](std::size_t) { return std::uint64_t{1}; },
-                           [](std::size_t, std::size_t i) { return !fails_at_40(i); }),
-                       [](const auto&) { return false; });
+         return outcome_of(distinct(
+                               c, kName, kItems, [](std::size_t) { return std::uint64_t{1}; },
+                               [](std::size_t, std::size_t i) { return !fails_at_40(i); }),
+                           [](const auto&) { return false; });
        }},
       {"for_each_by_weight, an error of a heavy item and of a light one",
        [](const Context& c) {
-         return judged(for_each_by_weight(
-                           c, kRegion, 2, [](std::size_t i) { return i == 40 ? 1e6 : 1.0; },
-                           [](std::size_t i) -> Status {
-                             if (i == 40 || i == 50) return an_error();
-                             return {};
-                           }),
-                       false);
+         return outcome_of(for_each_by_weight(
+                               c, kRegion, 2, [](std::size_t i) { return i == 40 ? 1e6 : 1.0; },
+                               [](std::size_t i) -> Status {
+                                 if (i == 40 || i == 50) return an_error();
+                                 return {};
+                               }),
+                           false);
        }},
       {"for_each_by_weight, an exception of cost",
        [](const Context& c) {
-         return judged(for_each_by_weight(
-                           c, kRegion, 2, [](std::size_t i) { return fails_at_40(i) ? 1.0 : 2.0; },
-                           [](std::size_t) {}),
-                       false);
+         return outcome_of(
+             for_each_by_weight(
+                 c, kRegion, 2, [](std::size_t i) { return fails_at_40(i) ? 1.0 : 2.0; },
+                 [](std::size_t) {}),
+             false);
        }},
       {"for_each_nested, an exception of length",
        [](const Context& c) {
-         return judged(for_each_nested(
-                           c, kRegion, kItems,
-                           [](std::size_t row) -> std::size_t { return fails_at_40(row) ? 1 : 2; },
-                           [](std::size_t, std::size_t) {}),
-                       false);
+         return outcome_of(
+             for_each_nested(
+                 c, kRegion, kItems,
+                 [](std::size_t row) -> std::size_t { return fails_at_40(row) ? 1 : 2; },
+                 [](std::size_t, std::size_t) {}),
+             false);
        }},
       {"for_each_reserved, an error",
        [](const Context& c) {
-         return judged(for_each_reserved(
-                           c, kRegion, 5, [](std::size_t i, Claims& claims) { claims(i % 5); },
-                           [](std::size_t i) -> Status {
-                             if (i == 40) return an_error();
-                             return {};
-                           }),
-                       [](const auto&) { return false; });
+         return outcome_of(for_each_reserved(
+                               c, kRegion, 5, [](std::size_t i, Claims& claims) { claims(i % 5); },
+                               [](std::size_t i) -> Status {
+                                 if (i == 40) return an_error();
+                                 return {};
+                               }),
+                           [](const auto&) { return false; });
        }},
       {"for_each_reserved, an order",
        [](const Context& c) {
          Region region = kRegion;
          region.order = kSomeOrder;
-         return judged(
+         return outcome_of(
              for_each_reserved(
                  c, region, 5, [](std::size_t, Claims& claims) { claims(1); }, [](std::size_t) {}),
              [](const auto&) { return false; });
@@ -345,7 +350,7 @@ std::vector<Pattern> patterns() {
        [](const Context& c) {
          Region region = kRegion;
          region.order = kSomeOrder;
-         return judged(for_each(c, region, [](std::size_t) {}), false);
+         return outcome_of(for_each(c, region, [](std::size_t) {}), false);
        }},
       {"pipeline", [](const Context& c) { return pipeline_run(c, false); }},
       {"pipeline, an error", [](const Context& c) { return pipeline_run(c, true); }},

@@ -99,30 +99,32 @@ TEST(WrongLoop, the_product_of_two_counts_does_not_fit_an_int) {
   EXPECT_EQ(shape.index(shape.size() - 1), (Shape2::Index{49'999, 49'999}));
 }
 
-struct Seen {
+struct Observation {
   double depth = 0;
   unsigned id = 0;
 };
 
 /// The nearest first, in the manner of qsort; never says "equal".
-int compare_depths(const Seen& a, const Seen& b) { return a.depth >= b.depth ? -1 : 1; }
+int compare_depths(const Observation& a, const Observation& b) {
+  return a.depth >= b.depth ? -1 : 1;
+}
 
-bool wrong_before(const Seen& a, const Seen& b) { return compare_depths(a, b) < 0; }
+bool wrong_before(const Observation& a, const Observation& b) { return compare_depths(a, b) < 0; }
 
-bool right_before(const Seen& a, const Seen& b) {
+bool right_before(const Observation& a, const Observation& b) {
   return a.depth != b.depth ? a.depth > b.depth : a.id < b.id;
 }
 
 /// What std::sort, qsort and every sorted container ask of an order.
 template <class Before>
-bool is_strict_weak_order(const std::vector<Seen>& values, Before&& before) {
-  const auto equivalent = [&](const Seen& a, const Seen& b) {
+bool is_strict_weak_order(const std::vector<Observation>& values, Before&& before) {
+  const auto equivalent = [&](const Observation& a, const Observation& b) {
     return !before(a, b) && !before(b, a);
   };
-  for (const Seen& a : values)
-    for (const Seen& b : values) {
+  for (const Observation& a : values)
+    for (const Observation& b : values) {
       if (before(a, a) || (before(a, b) && before(b, a))) return false;
-      for (const Seen& c : values)
+      for (const Observation& c : values)
         if ((before(a, b) && before(b, c) && !before(a, c)) ||
             (equivalent(a, b) && equivalent(b, c) && !equivalent(a, c)))
           return false;
@@ -133,18 +135,18 @@ bool is_strict_weak_order(const std::vector<Seen>& values, Before&& before) {
 /// By insertion, which ends whatever the order says: std::sort may read past its ends with the
 /// wrong one.
 template <class Before>
-std::vector<unsigned> sorted_ids(std::vector<Seen> values, Before&& before) {
+std::vector<unsigned> sorted_ids(std::vector<Observation> values, Before&& before) {
   for (std::size_t i = 1; i < values.size(); ++i)
     for (std::size_t k = i; k > 0 && before(values[k], values[k - 1]); --k)
       std::swap(values[k], values[k - 1]);
   std::vector<unsigned> ids;
-  for (const Seen& value : values) ids.push_back(value.id);
+  for (const Observation& value : values) ids.push_back(value.id);
   return ids;
 }
 
-TEST(WrongOrder, a_comparison_that_never_says_equal_is_no_order) {
-  const std::vector<Seen> came{{5, 0}, {7, 1}, {5, 2}, {7, 3}, {1, 4}, {5, 5}};
-  const std::vector<Seen> came_otherwise(came.rbegin(), came.rend());
+TEST(WrongOrder, a_comparison_that_never_states_equal_is_no_order) {
+  const std::vector<Observation> came{{5, 0}, {7, 1}, {5, 2}, {7, 3}, {1, 4}, {5, 5}};
+  const std::vector<Observation> came_otherwise(came.rbegin(), came.rend());
   EXPECT_FALSE(is_strict_weak_order(came, wrong_before));
   EXPECT_NE(sorted_ids(came, wrong_before), sorted_ids(came_otherwise, wrong_before));
   EXPECT_TRUE(is_strict_weak_order(came, right_before));

@@ -38,22 +38,22 @@ TEST(Progress, is_of_the_outermost_phase) {
   EXPECT_EQ(progress.snapshot().phases_ended, 1U);
 }
 
-TEST(Progress, regions_tell_how_far_they_are) {
+TEST(Progress, regions_report_how_far_they_are) {
   Team team(3);
   for (Team* const who : {static_cast<Team*>(nullptr), &team})
     for (const std::size_t grain : {1U, 10U}) {
       Progress progress;
       std::atomic<std::uint64_t> most{0};
-      const Status status =
-          for_each({.team = who, .progress = &progress}, {.name = "work", .n = 100, .grain = grain},
-                   [&](std::size_t) {
-                     const Progress::Snapshot now = progress.snapshot();
-                     EXPECT_EQ(now.phase, "work");
-                     EXPECT_EQ(now.total, 100U);
-                     std::uint64_t seen = most;
-                     while (now.done > seen && !most.compare_exchange_weak(seen, now.done)) {
-                     }
-                   });
+      const Status status = for_each(
+          {.team = who, .progress = &progress}, {.name = "work", .n = 100, .grain = grain},
+          [&](std::size_t) {
+            const Progress::Snapshot now = progress.snapshot();
+            EXPECT_EQ(now.phase, "work");
+            EXPECT_EQ(now.total, 100U);
+            std::uint64_t observed = most;
+            while (now.done > observed && !most.compare_exchange_weak(observed, now.done)) {
+            }
+          });
       ASSERT_TRUE(status);
       EXPECT_GT(most, 0U);
       EXPECT_LT(most, 100U) << "the running block is not done yet";

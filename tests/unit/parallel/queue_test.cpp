@@ -39,16 +39,16 @@ TEST(BoundedQueue, loses_nothing_between_any_number_of_producers_and_consumers) 
             while (const auto note = queue.pop()) got[c].push_back(*note);
           });
         for (std::thread& t : threads) t.join();
-        std::vector<std::vector<int>> seen(producers, std::vector<int>(kNotes, 0));
+        std::vector<std::vector<int>> observed(producers, std::vector<int>(kNotes, 0));
         for (const std::vector<Note>& notes : got) {
           std::vector<std::int64_t> last(producers, -1);
           for (const Note& note : notes) {
-            ++seen[note.producer][note.number];
+            ++observed[note.producer][note.number];
             EXPECT_GT(note.number, last[note.producer]) << "a producer's values stay in order";
             last[note.producer] = note.number;
           }
         }
-        for (const auto& counts : seen)
+        for (const auto& counts : observed)
           EXPECT_EQ(counts, std::vector<int>(kNotes, 1))
               << capacity << ' ' << producers << ' ' << consumers;
       }

@@ -75,7 +75,7 @@ TEST(Reservations, gives_what_the_plain_loop_gives) {
 /// algorithm: still one result for any team.
 TEST(Reservations, what_breaks_the_rules_of_the_plain_loop_gives_one_result_all_the_same) {
   constexpr std::size_t kItems = 400;
-  for (const bool looks_elsewhere : {false, true}) {
+  for (const bool reads_elsewhere : {false, true}) {
     std::set<std::vector<std::uint32_t>> results;
     for (const unsigned workers : kWorkers) {
       Team team(workers);
@@ -84,8 +84,8 @@ TEST(Reservations, what_breaks_the_rules_of_the_plain_loop_gives_one_result_all_
           {.team = &team}, {.name = "odd", .n = kItems}, at.size(),
           [&](std::size_t i, Claims& claims) {
             claims(i % 4);
-            // "Not yet" taken for "never", or a look at a place that is not asked for.
-            return looks_elsewhere ? at[(i + 1) % 4] % 3 != 2 : at[i % 4] % 3 == i % 3;
+            // "Not yet" taken for "never", or a look at a place that is not requested.
+            return reads_elsewhere ? at[(i + 1) % 4] % 3 != 2 : at[i % 4] % 3 == i % 3;
           },
           [&](std::size_t i) { at[i % 4] += 1 + static_cast<std::uint32_t>(i % 2); }));
       results.insert(at);
@@ -123,17 +123,17 @@ TEST(Reservations, one_place_for_all_is_one_by_one_in_order) {
 TEST(Reservations, items_that_share_nothing_need_few_rounds) {
   constexpr std::size_t kItems = 100000;
   Team team(2);
-  std::vector<int> seen(kItems, 0);
+  std::vector<int> observed(kItems, 0);
   const auto run = for_each_reserved(
       {.team = &team}, {.name = "apart", .n = kItems, .grain = 64}, kItems,
-      [](std::size_t i, Claims& claims) { claims(i); }, [&](std::size_t i) { ++seen[i]; });
+      [](std::size_t i, Claims& claims) { claims(i); }, [&](std::size_t i) { ++observed[i]; });
   ASSERT_TRUE(run);
   EXPECT_EQ(run->claims, kItems);
   EXPECT_LT(run->rounds, 10U);
-  EXPECT_EQ(std::ranges::count(seen, 1), static_cast<std::ptrdiff_t>(kItems));
+  EXPECT_EQ(std::ranges::count(observed, 1), static_cast<std::ptrdiff_t>(kItems));
 }
 
-/// Trees of a forest by pointers to parents: what an item asks for changes with what others did.
+/// Trees of a forest by pointers to parents: what an item requests changes with what others did.
 std::size_t root(const std::vector<std::uint32_t>& parent, std::size_t node) {
   while (parent[node] != node) node = parent[node];
   return node;
@@ -257,14 +257,14 @@ TEST(Reservations, wrong_use_is_an_error) {
 TEST(Reservations, no_items_no_places_and_no_claims_are_fine) {
   Team team(3);
   const auto none = [](std::size_t /*i*/, Claims& /*claims*/) {};
-  std::vector<int> seen(100, 0);
-  const auto act = [&](std::size_t i) { ++seen[i]; };
+  std::vector<int> observed(100, 0);
+  const auto act = [&](std::size_t i) { ++observed[i]; };
   EXPECT_EQ(for_each_reserved({.team = &team}, {.n = 0}, 0, none, act)->rounds, 0U);
   EXPECT_EQ(for_each_reserved({.team = &team}, {.n = 100}, 0, none, act)->rounds, 1U);
-  EXPECT_EQ(seen, std::vector<int>(100, 1));
+  EXPECT_EQ(observed, std::vector<int>(100, 1));
 }
 
-TEST(Reservations, stops_when_it_is_asked_to) {
+TEST(Reservations, stops_when_it_is_requested_to) {
   for (const unsigned workers : kWorkers) {
     Team team(workers);
     std::stop_source source;
@@ -280,7 +280,7 @@ TEST(Reservations, stops_when_it_is_asked_to) {
   }
 }
 
-TEST(Reservations, progress_counts_the_items_and_reports_tell_claims_apart) {
+TEST(Reservations, progress_counts_the_items_and_reports_distinguish_claims) {
   Team team(2);
   Progress progress;
   RunReport report;

@@ -116,10 +116,10 @@ TEST(WorkStealingShares, what_is_left_of_a_share_can_be_passed_over) {
 }
 
 TEST(WorkStealingShares, counters_do_not_come_round_again) {
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
   for (const unsigned shares : {1U, 3U}) {
     WorkStealingShares dealt;
-    dealt.deal(kMost, shares, 1, Rest::kept);
+    dealt.deal(kMax, shares, 1, Rest::kept);
     std::size_t sum = 0;
     for (unsigned i = 0; i < shares; ++i) {
       const Seat seat{i, shares};
@@ -128,7 +128,7 @@ TEST(WorkStealingShares, counters_do_not_come_round_again) {
       sum += hand.end - hand.position;
       EXPECT_FALSE(dealt.take(hand, seat));
     }
-    EXPECT_EQ(sum, kMost);
+    EXPECT_EQ(sum, kMax);
   }
 }
 
@@ -186,7 +186,7 @@ TEST(WorkStealingShares, there_is_one_where_an_order_is_given) {
 }
 
 /// A loop that looked at the limit only once, before it, would not end in a day.
-TEST(Relaxed, looks_every_time) {
+TEST(Relaxed, polls_every_time) {
   std::stop_source source;
   std::atomic<bool> running{false};
   std::thread outside([&] {

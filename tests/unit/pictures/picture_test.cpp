@@ -28,9 +28,9 @@ Result<ClashPicture> picture_of(const PicturedClash& clash, const Subject& subje
                                 const PictureOptions& options = {},
                                 const parallel::Context& context = {}) {
   const Scenery scenery = clash.scenery();
-  const auto seen = choose_viewpoint(scenery, subject, {view_aspect(options)}, context);
-  if (!seen) return seen.error();
-  return draw_clash(scenery, subject, *seen, options, context);
+  const auto viewpoint = choose_viewpoint(scenery, subject, {view_aspect(options)}, context);
+  if (!viewpoint) return viewpoint.error();
+  return draw_clash(scenery, subject, *viewpoint, options, context);
 }
 
 std::string svg_of(const ClashPicture& picture) {
@@ -116,7 +116,7 @@ TEST(ClashPicture, HostileNamesAreText) {
   EXPECT_TRUE(png_of(*picture, 400, 300));
 }
 
-TEST(ClashPicture, APngTellsLettersApart) {
+TEST(ClashPicture, APngDistinguishesLetters) {
   const auto png_with = [](const std::string& name) {
     const PicturedClash clash(crossing(name, "beam"));
     return png_of(*picture_of(clash, clash.subject(name, "beam")), 400, 300).value();
@@ -127,7 +127,7 @@ TEST(ClashPicture, APngTellsLettersApart) {
   EXPECT_EQ(png_with("配管"), png_with("船体")) << "what the font lacks are boxes";
 }
 
-TEST(ClashPicture, APngHasTheSizeThatIsAskedFor) {
+TEST(ClashPicture, APngHasTheSizeThatIsRequested) {
   const PicturedClash clash(crossing());
   const auto picture = picture_of(clash, clash.subject("pipe", "beam"));
   ASSERT_TRUE(picture);
@@ -143,10 +143,10 @@ TEST(ClashPicture, RefusesSizesAndEndsWhenCancelled) {
   const Subject subject = clash.subject("pipe", "beam");
   EXPECT_EQ(picture_of(clash, subject, {.width_mm = 10}).error().code, ErrorCode::usage);
   const Scenery scenery = clash.scenery();
-  const ClashViewpoint seen = choose_viewpoint(scenery, subject, {}, {}).value();
+  const ClashViewpoint viewpoint = choose_viewpoint(scenery, subject, {}, {}).value();
   const std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(draw_clash(scenery, subject, seen, {}, {.stop = stop.get_token()}).error().code,
+  EXPECT_EQ(draw_clash(scenery, subject, viewpoint, {}, {.stop = stop.get_token()}).error().code,
             ErrorCode::cancelled);
 }
 

@@ -43,8 +43,8 @@ void add_room(ClashModel& m, double half, int open_axis = -1, double open_side =
 }
 
 /// What rays from the eye, or from the plane that cuts, see near the clash.
-RayShares seen(const PicturedClash& clash, const Subject& subject,
-               const ClashViewpoint& viewpoint) {
+RayShares ray_shares(const PicturedClash& clash, const Subject& subject,
+                     const ClashViewpoint& viewpoint) {
   const Scenery scenery = clash.scenery();
   const Vec3d toward = -viewpoint.direction;
   double from = dot(viewpoint.eye_mm - viewpoint.target_mm, toward);
@@ -60,7 +60,7 @@ ClashViewpoint viewpoint_of(const PicturedClash& clash, const Subject& subject) 
   return choose_viewpoint(clash.scenery(), subject, {}, {}).value();
 }
 
-constexpr double kSeen = 0.03;
+constexpr double kVisibleShare = 0.03;
 
 TEST(Viewpoint, FramesAClashThatNothingHides) {
   const PicturedClash clash(bars());
@@ -76,9 +76,9 @@ TEST(Viewpoint, FramesAClashThatNothingHides) {
       dot(viewpoint.eye_mm - viewpoint.target_mm, viewpoint.eye_mm - viewpoint.target_mm));
   EXPECT_NEAR(std::tan(viewpoint.field_of_view_deg / 360 * std::acos(-1.0)) * distance,
               viewpoint.half_height_mm, 1e-6);
-  const RayShares rays = seen(clash, subject, viewpoint);
-  EXPECT_GT(rays.a, kSeen);
-  EXPECT_GT(rays.b, kSeen);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
+  EXPECT_GT(rays.a, kVisibleShare);
+  EXPECT_GT(rays.b, kVisibleShare);
 }
 
 TEST(Viewpoint, LooksThroughTheOpenSideOfARoom) {
@@ -91,12 +91,12 @@ TEST(Viewpoint, LooksThroughTheOpenSideOfARoom) {
       const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
       EXPECT_TRUE(viewpoint.clipping_planes.empty()) << axis << ' ' << side;
       EXPECT_GT(-viewpoint.direction[axis] * side, 0.5) << axis << ' ' << side;
-      const RayShares rays = seen(clash, subject, viewpoint);
-      EXPECT_GT(std::min(rays.a, rays.b), kSeen) << axis << ' ' << side;
+      const RayShares rays = ray_shares(clash, subject, viewpoint);
+      EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare) << axis << ' ' << side;
     }
 }
 
-TEST(Viewpoint, CutsAClosedRoomOpenAndSaysSo) {
+TEST(Viewpoint, CutsAClosedRoomOpenAndReportsIt) {
   ClashModel m = bars();
   add_room(m, 230);
   const PicturedClash clash(std::move(m));
@@ -104,8 +104,8 @@ TEST(Viewpoint, CutsAClosedRoomOpenAndSaysSo) {
   const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
   ASSERT_EQ(viewpoint.clipping_planes.size(), 1U);
   EXPECT_GT(dot(viewpoint.clipping_planes[0].normal, -viewpoint.direction), 0.999);
-  const RayShares rays = seen(clash, subject, viewpoint);
-  EXPECT_GT(std::min(rays.a, rays.b), kSeen);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
+  EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare);
 }
 
 TEST(Viewpoint, CutsWhatHoldsTheOther) {
@@ -116,7 +116,7 @@ TEST(Viewpoint, CutsWhatHoldsTheOther) {
   const Subject subject = clash.subject("tank", "valve");
   const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
   ASSERT_EQ(viewpoint.clipping_planes.size(), 1U);
-  const RayShares rays = seen(clash, subject, viewpoint);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
   EXPECT_GT(std::min(rays.a, rays.b), 0.003);
 }
 
@@ -134,8 +134,8 @@ TEST(Viewpoint, FindsAWayThroughACrowd) {
     }
     const PicturedClash clash(std::move(m));
     const Subject subject = clash.subject("bar a", "bar b");
-    const RayShares rays = seen(clash, subject, viewpoint_of(clash, subject));
-    EXPECT_GT(std::min(rays.a, rays.b), kSeen);
+    const RayShares rays = ray_shares(clash, subject, viewpoint_of(clash, subject));
+    EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare);
   }
 }
 
@@ -164,9 +164,9 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
       const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
       const ViewCandidate found = find_best(triangles, directions, cut_open, {}).value().best;
-      const auto judged = evaluate_candidates(triangles, directions, cut_open, {}).value();
-      EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
-      EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
+      const auto evaluated = evaluate_candidates(triangles, directions, cut_open, {}).value();
+      EXPECT_EQ(found.viewer, best_of(evaluated).viewer) << cut;
+      EXPECT_EQ(found.rank, best_of(evaluated).rank) << cut;
     }
     for (const ViewCandidate& one : all) {
       EXPECT_GE(best.rank, one.rank);

@@ -81,7 +81,7 @@ Changes changes_between(const std::vector<Given>& then, const std::vector<Given>
 }
 
 /// Returns "id: kind, kind; …", in the order of the list.
-std::string told(const Changes& changes) {
+std::string reported(const Changes& changes) {
   std::string text;
   for (const ObjectChange& change : changes.objects) {
     text += (text.empty() ? "" : "; ") + change.name().id + ":";
@@ -92,44 +92,44 @@ std::string told(const Changes& changes) {
   return text;
 }
 
-std::string told(const std::vector<Given>& then, const std::vector<Given>& now) {
-  return told(changes_between(then, now));
+std::string reported(const std::vector<Given>& then, const std::vector<Given>& now) {
+  return reported(changes_between(then, now));
 }
 
-TEST(Changes, NothingChangedIsNothingTold) {
+TEST(Changes, NothingChangedIsNothingReported) {
   const std::vector<Given> objects{{.id = "x"}, {.id = "y", .shape = triangle({1, 2, 3})}};
   const Changes changes = changes_between(objects, objects);
-  EXPECT_EQ(told(changes), "");
+  EXPECT_EQ(reported(changes), "");
   EXPECT_EQ(changes.unchanged, 2U);
 }
 
-TEST(Changes, EachKindIsToldAsItself) {
+TEST(Changes, EachKindIsReportedAsItself) {
   const Given x{.id = "x"}, other{.id = "other", .at = {900, 0, 0}};
-  EXPECT_EQ(told({x}, {x, other}), "other: added");
-  EXPECT_EQ(told({x, other}, {x}), "other: removed");
-  EXPECT_EQ(told({x}, {{.id = "x", .at = {1, 0, 0}}}), "x: moved");
-  EXPECT_EQ(told({x}, {{.id = "x", .shape = box(101)}}), "x: reshaped");
-  EXPECT_EQ(told({x}, {{.id = "x", .shape = box(101), .at = {1, 0, 0}}}), "x: reshaped");
-  EXPECT_EQ(told({x}, {{.id = "x", .name = "bolt"}}), "x: reattributed");
-  EXPECT_EQ(told({x}, {{.id = "x", .attributes = {{"DN", "80"}}}}), "x: reattributed");
-  EXPECT_EQ(told({x}, {{.id = "x", .group = "DECK"}}), "x: reattributed");
-  EXPECT_EQ(told({x}, {{.id = "x", .color = {1, 2, 3, 255}}}), "x: reattributed");
-  EXPECT_EQ(told({x}, {{.id = "z"}}), "z: renamed");
+  EXPECT_EQ(reported({x}, {x, other}), "other: added");
+  EXPECT_EQ(reported({x, other}, {x}), "other: removed");
+  EXPECT_EQ(reported({x}, {{.id = "x", .at = {1, 0, 0}}}), "x: moved");
+  EXPECT_EQ(reported({x}, {{.id = "x", .shape = box(101)}}), "x: reshaped");
+  EXPECT_EQ(reported({x}, {{.id = "x", .shape = box(101), .at = {1, 0, 0}}}), "x: reshaped");
+  EXPECT_EQ(reported({x}, {{.id = "x", .name = "bolt"}}), "x: reattributed");
+  EXPECT_EQ(reported({x}, {{.id = "x", .attributes = {{"DN", "80"}}}}), "x: reattributed");
+  EXPECT_EQ(reported({x}, {{.id = "x", .group = "DECK"}}), "x: reattributed");
+  EXPECT_EQ(reported({x}, {{.id = "x", .color = {1, 2, 3, 255}}}), "x: reattributed");
+  EXPECT_EQ(reported({x}, {{.id = "z"}}), "z: renamed");
 }
 
 TEST(Changes, AnObjectMayHaveSeveralKinds) {
   const Given x{.id = "x"};
-  EXPECT_EQ(told({x}, {{.id = "x", .at = {5, 0, 0}, .attributes = {{"DN", "80"}}}}),
+  EXPECT_EQ(reported({x}, {{.id = "x", .at = {5, 0, 0}, .attributes = {{"DN", "80"}}}}),
             "x: moved reattributed");
-  EXPECT_EQ(told({x}, {{.id = "z", .attributes = {{"DN", "80"}}}}), "z: reattributed renamed");
+  EXPECT_EQ(reported({x}, {{.id = "z", .attributes = {{"DN", "80"}}}}), "z: reattributed renamed");
 }
 
 TEST(Changes, ANameThatComesWithAnotherIdIsOneChange) {
-  EXPECT_EQ(told({{.id = "/HULL/x", .name = "x"}}, {{.id = "/HULL/z", .name = "z"}}),
+  EXPECT_EQ(reported({{.id = "/HULL/x", .name = "x"}}, {{.id = "/HULL/z", .name = "z"}}),
             "/HULL/z: renamed");
 }
 
-TEST(Changes, ARenamedObjectTellsWhatItWasCalled) {
+TEST(Changes, ARenamedObjectReportsWhatItWasCalled) {
   const Changes changes = changes_between({{.id = "x"}}, {{.id = "z"}});
   ASSERT_EQ(changes.objects.size(), 1U);
   EXPECT_EQ(changes.objects.front().before.id, "x");
@@ -137,27 +137,27 @@ TEST(Changes, ARenamedObjectTellsWhatItWasCalled) {
 }
 
 TEST(Changes, WhatMovedUnderAnotherIdIsAnotherObject) {
-  EXPECT_EQ(told({{.id = "x"}}, {{.id = "z", .at = {50, 0, 0}}}), "x: removed; z: added");
+  EXPECT_EQ(reported({{.id = "x"}}, {{.id = "z", .at = {50, 0, 0}}}), "x: removed; z: added");
 }
 
 TEST(Changes, ACopyAtTheSamePlaceIsAdded) {
-  EXPECT_EQ(told({{.id = "x"}}, {{.id = "a"}, {.id = "x"}}), "a: added");
+  EXPECT_EQ(reported({{.id = "x"}}, {{.id = "a"}, {.id = "x"}}), "a: added");
 }
 
 TEST(Changes, AMeshWhoseCornersAreAllDisplacedHasMoved) {
-  EXPECT_EQ(told({{.id = "x", .shape = triangle({0, 0, 0})}},
-                 {{.id = "x", .shape = triangle({12.5, 0, 3})}}),
+  EXPECT_EQ(reported({{.id = "x", .shape = triangle({0, 0, 0})}},
+                     {{.id = "x", .shape = triangle({12.5, 0, 3})}}),
             "x: moved");
   model::Shape bent = triangle({12.5, 0, 3});
   std::get<geometry::TriangleMesh>(bent).vertices[2].z += 0.5;
-  EXPECT_EQ(told({{.id = "x", .shape = triangle({0, 0, 0})}}, {{.id = "x", .shape = bent}}),
+  EXPECT_EQ(reported({{.id = "x", .shape = triangle({0, 0, 0})}}, {{.id = "x", .shape = bent}}),
             "x: reshaped");
 }
 
 TEST(Changes, AChangeBelowTheGridIsNoMove) {
   model::Shape other = triangle({0, 0, 0});
   std::get<geometry::TriangleMesh>(other).vertices[1].x += 1e-7;
-  EXPECT_EQ(told({{.id = "x", .shape = triangle({0, 0, 0})}}, {{.id = "x", .shape = other}}),
+  EXPECT_EQ(reported({{.id = "x", .shape = triangle({0, 0, 0})}}, {{.id = "x", .shape = other}}),
             "x: reshaped");
 }
 
@@ -166,10 +166,10 @@ TEST(Changes, IdsThatCountFollowWhatTheyAreAndWhere) {
     return Given{.id = "node" + std::to_string(number), .at = {x, 0, 0}, .positional = true};
   };
   // One is inserted before two others, which are counted on.
-  EXPECT_EQ(told({node(1, 0), node(2, 500)}, {node(1, -500), node(2, 0), node(3, 500)}),
+  EXPECT_EQ(reported({node(1, 0), node(2, 500)}, {node(1, -500), node(2, 0), node(3, 500)}),
             "node1: added");
   // One has moved and leaves nothing behind: its id is all that tells.
-  EXPECT_EQ(told({node(1, 0), node(2, 500)}, {node(1, 0), node(2, 600)}), "node2: moved");
+  EXPECT_EQ(reported({node(1, 0), node(2, 500)}, {node(1, 0), node(2, 600)}), "node2: moved");
 }
 
 TEST(Changes, ObjectsAreTheSameInAFileOfAnotherName) {
@@ -181,7 +181,7 @@ TEST(Changes, ObjectsAreTheSameInAFileOfAnotherName) {
   }
   now[2].at.x += 10;
   const Changes changes = changes_between(then, now);
-  EXPECT_EQ(told(changes), "p2: moved");
+  EXPECT_EQ(reported(changes), "p2: moved");
   EXPECT_EQ(changes.unchanged, 5U);
   ASSERT_EQ(changes.files.matches.size(), 1U);
   EXPECT_EQ(changes.files.matches.front().relation, report::FileRelation::renamed);
@@ -192,17 +192,18 @@ TEST(Changes, ObjectsAreTheSameInAFileOfAnotherName) {
 TEST(Changes, ObjectsOfFilesThatHaveNothingInCommonCameAndWent) {
   const Changes changes = changes_between({{.id = "x", .file = "old.rvm"}},
                                           {{.id = "q", .at = {9, 9, 9}, .file = "new.rvm"}});
-  EXPECT_EQ(told(changes), "q: added; x: removed");
+  EXPECT_EQ(reported(changes), "q: added; x: removed");
   EXPECT_EQ(changes.files.only_before, std::vector<std::string>{"old.rvm"});
   EXPECT_EQ(changes.files.only_after, std::vector<std::string>{"new.rvm"});
 }
 
 TEST(Changes, TheListIsInTheOrderOfTheModel) {
-  EXPECT_EQ(told({{.id = "b"}, {.id = "d", .at = {1000, 0, 0}}, {.id = "e", .at = {2000, 0, 0}}},
-                 {{.id = "a", .at = {3000, 0, 0}},
-                  {.id = "c", .at = {4000, 0, 0}},
-                  {.id = "d", .at = {1001, 0, 0}}}),
-            "a: added; b: removed; c: added; d: moved; e: removed");
+  EXPECT_EQ(
+      reported({{.id = "b"}, {.id = "d", .at = {1000, 0, 0}}, {.id = "e", .at = {2000, 0, 0}}},
+               {{.id = "a", .at = {3000, 0, 0}},
+                {.id = "c", .at = {4000, 0, 0}},
+                {.id = "d", .at = {1001, 0, 0}}}),
+      "a: added; b: removed; c: added; d: moved; e: removed");
 }
 
 TEST(Changes, OutputsHaveEveryChange) {

@@ -34,10 +34,10 @@ std::string contents(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-void expect_error(const auto& result, ErrorCode code, std::string_view says) {
+void expect_error(const auto& result, ErrorCode code, std::string_view text) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, code) << result.error().text();
-  EXPECT_NE(result.error().text().find(says), std::string::npos) << result.error().text();
+  EXPECT_NE(result.error().text().find(text), std::string::npos) << result.error().text();
 }
 
 class ProjectFileTest : public ::testing::Test {
@@ -86,7 +86,7 @@ TEST_F(ProjectFileTest, NoFolderNoProject) {
                "cannot be written");
 }
 
-TEST_F(ProjectFileTest, WhatIsNoProjectIsTold) {
+TEST_F(ProjectFileTest, WhatIsNoProjectIsReported) {
   expect_error(Project::open(file_, {}), ErrorCode::input, "cannot be read");
   expect_error(Project::open(folder_.path(), {}), ErrorCode::input, "cannot be read");
   const fs::path text = folder_.write("a.txt", "solid\n");
@@ -168,7 +168,7 @@ TEST_F(ProjectFileTest, WithoutAWriteLogItIsReadWhereNothingMayBeWritten) {
   ASSERT_EQ(::chmod(folder_.path().c_str(), 0755), 0);
 }
 
-TEST_F(ProjectFileTest, AFileThatMayNotGrowIsToldAsThat) {
+TEST_F(ProjectFileTest, AFileThatMayNotGrowIsReportedAsThat) {
   static_cast<void>(make());
   auto project = Project::open(file_, {.access = Access::write});
   ASSERT_TRUE(project);
@@ -207,7 +207,7 @@ TEST_F(ProjectFileTest, ReadersNeitherWaitNorSeeHalf) {
   EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
 }
 
-TEST_F(ProjectFileTest, ASecondWriterIsTold) {
+TEST_F(ProjectFileTest, ASecondWriterIsReported) {
   static_cast<void>(make());
   auto first = Project::open(file_, {.access = Access::write});
   ASSERT_TRUE(first);
@@ -290,7 +290,7 @@ TEST_F(ProjectFileTest, WhoeverClosesLastLeavesOneFile) {
   EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
 }
 
-TEST_F(ProjectFileTest, AFileThatIsNoLongerWhereItWasIsTold) {
+TEST_F(ProjectFileTest, AFileThatIsNoLongerWhereItWasIsReported) {
   auto project = Project::open(make(), {.access = Access::write});
   ASSERT_TRUE(project) << project.error().text();
   EXPECT_TRUE(project->database().check_in_place());
@@ -336,7 +336,7 @@ TEST_F(ProjectFileTest, AFolderThatMayNotBeWrittenIsReadAllTheSame) {
   ASSERT_EQ(::chmod(folder_.path().c_str(), 0755), 0);
 }
 
-TEST_F(ProjectFileTest, FaultsOfStatementsAreTold) {
+TEST_F(ProjectFileTest, FaultsOfStatementsAreReported) {
   static_cast<void>(make());
   auto project = Project::open(file_, {.access = Access::write});
   ASSERT_TRUE(project);

@@ -96,14 +96,14 @@ model::Model pipes() {
   return std::move(m.model);
 }
 
-struct Asked {
+struct DrawingContent {
   hlr::View view;
   hlr::Options options;
 };
 
 /// Views that between them have everything that a drawing can hold.
-std::vector<Asked> asked(std::size_t objects) {
-  std::vector<Asked> all(5);
+std::vector<DrawingContent> contents_of(std::size_t objects) {
+  std::vector<DrawingContent> all(5);
   all[1].view.direction = {0, 0, 1};
   all[1].view.up = {0, 1, 0};
   all[1].view.sections = {{{0, 0, 1}, {0, 0, 100'000}}, {{1, 0, 0}, {3'000'000, 0, 0}}};
@@ -128,7 +128,7 @@ std::vector<Asked> asked(std::size_t objects) {
   return all;
 }
 
-hlr::Drawing drawn(const model::Model& model, const Asked& how) {
+hlr::Drawing drawn(const model::Model& model, const DrawingContent& how) {
   const auto scene = model::make_scene(model, {}, {});
   EXPECT_TRUE(scene);
   auto drawing = hlr::draw(*scene, {}, how.view, how.options, {});
@@ -140,7 +140,7 @@ TEST(DrawingCodec, AllOfADrawingComesBack) {
   parallel::Team team(4);
   const parallel::Context teamed{.team = &team};
   for (const model::Model& model : {mixed_model(), ship()})
-    for (const Asked& how : asked(model.objects.size())) {
+    for (const DrawingContent& how : contents_of(model.objects.size())) {
       const hlr::Drawing drawing = drawn(model, how);
       const std::vector<std::byte> bytes = bytes_of(drawing);
       for (const parallel::Context& context : {parallel::Context{}, teamed}) {

@@ -14,14 +14,15 @@ using report::Reopened;
 
 constexpr Measure kThen{clash::Class::contact, -1, 2};
 
-LifeChange after(DecisionStatus status, Sight sight, Measure now = kThen, double deeper_mm = 1) {
+LifeChange after(DecisionStatus status, ObservationKind sight, Measure now = kThen,
+                 double deeper_mm = 1) {
   return next({status, kThen, true}, {sight, now, "X"}, deeper_mm);
 }
 
 TEST(LifeCycle, keeps_what_was_decided_while_a_clash_is_there) {
   for (const DecisionStatus status : {DecisionStatus::undecided, DecisionStatus::active,
                                       DecisionStatus::reviewed, DecisionStatus::approved}) {
-    const LifeChange change = after(status, Sight::found);
+    const LifeChange change = after(status, ObservationKind::found);
     EXPECT_EQ(change.status, status);
     EXPECT_TRUE(change.is_there);
     EXPECT_FALSE(change.is_new);
@@ -30,7 +31,7 @@ TEST(LifeCycle, keeps_what_was_decided_while_a_clash_is_there) {
 }
 
 TEST(LifeCycle, makes_what_is_found_again_new) {
-  const LifeChange change = after(DecisionStatus::resolved, Sight::found);
+  const LifeChange change = after(DecisionStatus::resolved, ObservationKind::found);
   EXPECT_EQ(change.status, DecisionStatus::undecided);
   EXPECT_TRUE(change.is_new);
   EXPECT_EQ(change.reopened, Reopened::found_again);
@@ -39,7 +40,7 @@ TEST(LifeCycle, makes_what_is_found_again_new) {
 
 TEST(LifeCycle, resolves_what_is_gone) {
   for (const DecisionStatus status : report::kDecisionStatuses) {
-    const LifeChange change = after(status, Sight::gone);
+    const LifeChange change = after(status, ObservationKind::gone);
     EXPECT_EQ(change.status, DecisionStatus::resolved);
     EXPECT_FALSE(change.is_there);
     EXPECT_EQ(change.cause, status == DecisionStatus::resolved ? "" : "no longer found");
@@ -47,17 +48,17 @@ TEST(LifeCycle, resolves_what_is_gone) {
 }
 
 TEST(LifeCycle, resolves_what_a_rule_allows_but_not_what_is_approved) {
-  const LifeChange active = after(DecisionStatus::active, Sight::allowed);
+  const LifeChange active = after(DecisionStatus::active, ObservationKind::allowed);
   EXPECT_EQ(active.status, DecisionStatus::resolved);
   EXPECT_EQ(active.cause, "allowed by rule 'X'");
-  const LifeChange approved = after(DecisionStatus::approved, Sight::allowed);
+  const LifeChange approved = after(DecisionStatus::approved, ObservationKind::allowed);
   EXPECT_EQ(approved.status, DecisionStatus::approved);
   EXPECT_TRUE(approved.is_there);
 }
 
-TEST(LifeCycle, never_changes_what_it_cannot_tell) {
+TEST(LifeCycle, never_changes_what_it_cannot_decide) {
   for (const DecisionStatus status : report::kDecisionStatuses) {
-    const LifeChange change = after(status, Sight::cannot_tell);
+    const LifeChange change = after(status, ObservationKind::cannot_tell);
     EXPECT_EQ(change.status, status);
     EXPECT_TRUE(change.is_there);
     EXPECT_EQ(change.cause, "");
@@ -66,7 +67,8 @@ TEST(LifeCycle, never_changes_what_it_cannot_tell) {
 
 TEST(LifeCycle, brings_approved_ones_back_where_they_got_worse) {
   const auto reopened = [](Measure now, double deeper_mm = 1) {
-    const LifeChange change = after(DecisionStatus::approved, Sight::found, now, deeper_mm);
+    const LifeChange change =
+        after(DecisionStatus::approved, ObservationKind::found, now, deeper_mm);
     EXPECT_EQ(change.status, change.reopened == Reopened::no ? DecisionStatus::approved
                                                              : DecisionStatus::undecided);
     EXPECT_EQ(change.cause.empty(), change.reopened == Reopened::no);
@@ -80,8 +82,9 @@ TEST(LifeCycle, brings_approved_ones_back_where_they_got_worse) {
   EXPECT_EQ(reopened({clash::Class::clearance_violation, 3, 2}), Reopened::no);
   EXPECT_EQ(reopened({clash::Class::contact, -1, 3}), Reopened::more_regions);
   EXPECT_EQ(reopened({clash::Class::contact, -1, 0}), Reopened::no) << "they were not counted";
-  EXPECT_EQ(next({DecisionStatus::approved, {}, false}, {Sight::found, kThen, ""}, 1).reopened,
-            Reopened::no)
+  EXPECT_EQ(
+      next({DecisionStatus::approved, {}, false}, {ObservationKind::found, kThen, ""}, 1).reopened,
+      Reopened::no)
       << "what it was is not known";
 }
 

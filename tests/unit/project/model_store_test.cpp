@@ -219,7 +219,7 @@ TEST_F(ModelStoreTest, RenamedFilesTakePlaces) {
   expect_model_of(paths);
 }
 
-TEST_F(ModelStoreTest, FilesThatLieOtherwiseOnAMapAreTold) {
+TEST_F(ModelStoreTest, FilesThatLieOtherwiseOnAMapAreReported) {
   Project project = make();
   std::vector<FileToStore> files;
   for (const char* const name : {"b.rvm", "a.rvm", "c.rvm", "d.rvm"}) {
@@ -241,7 +241,7 @@ TEST_F(ModelStoreTest, FilesThatLieOtherwiseOnAMapAreTold) {
     ASSERT_TRUE(transaction->commit());
   };
   put(files);
-  const auto told = [&] {
+  const auto reported = [&] {
     auto reader = Project::open(folder_.path() / "ship.strake", {});
     EXPECT_TRUE(reader);
     const auto model = reader->model({});
@@ -252,17 +252,17 @@ TEST_F(ModelStoreTest, FilesThatLieOtherwiseOnAMapAreTold) {
     return notes;
   };
   // The others lie as the first by name does, on another map, and nowhere.
-  ASSERT_EQ(told().size(), 1U);
-  EXPECT_EQ(told()[0].where, files[0].given);
-  EXPECT_NE(told()[0].message.find(files[1].given), std::string::npos) << told()[0].message;
+  ASSERT_EQ(reported().size(), 1U);
+  EXPECT_EQ(reported()[0].where, files[0].given);
+  EXPECT_NE(reported()[0].message.find(files[1].given), std::string::npos) << reported()[0].message;
   // A file that is read again lies where it says then.
   files[0].map = files[1].map;
   put(std::span(files).first(1));
-  EXPECT_TRUE(told().empty());
+  EXPECT_TRUE(reported().empty());
   files[1].map.reset();
   files[0].map->to_map.linear.row[0].x = 2;
   put(std::span(files).first(2));
-  EXPECT_TRUE(told().empty()) << "it is the only one on its map";
+  EXPECT_TRUE(reported().empty()) << "it is the only one on its map";
   EXPECT_EQ(test::number(project, "SELECT count(*) FROM map_place"), 2);
   const std::int64_t id = test::number(project, "SELECT id FROM file WHERE name = 'b.rvm'");
   ASSERT_TRUE(test::take_out(project, std::array{id}));
@@ -380,7 +380,7 @@ TEST_F(ModelStoreTest, WhatNoFileUsesGoes) {
 
 TEST_F(ModelStoreTest, BytesDoNotDependOnTheNumberOfWorkers) {
   const fs::path path = write_ship("a.glb", {.objects = 2000});
-  std::set<std::string> seen;
+  std::set<std::string> known;
   for (const unsigned workers : {1U, 2U, 7U}) {
     const fs::path file = folder_.path() / ("p" + std::to_string(workers) + ".strake");
     auto project = Project::create(file);
@@ -392,9 +392,9 @@ TEST_F(ModelStoreTest, BytesDoNotDependOnTheNumberOfWorkers) {
     ASSERT_TRUE(rows);
     Hasher hasher;
     while (rows->step().value()) hasher.add(rows->bytes(0));
-    seen.insert(hasher.value().text());
+    known.insert(hasher.value().text());
   }
-  EXPECT_EQ(seen.size(), 1U);
+  EXPECT_EQ(known.size(), 1U);
 }
 
 TEST_F(ModelStoreTest, TheContentOfAFileIsThatOfAllFilesReadWithIt) {

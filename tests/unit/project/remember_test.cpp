@@ -68,15 +68,15 @@ class Remembered : public ::testing::Test {
       const bool same_ids = before->snapshot.identities == snapshot.identities;
       found = clash::follow_changes(scene, sets, options, policy,
                                     {before->results.report, now_of, same_ids,
-                                     tells_ ? &*before->results.partners : nullptr},
+                                     reports_changes_ ? &*before->results.partners : nullptr},
                                     context_)
                   .value();
-      if (!tells_) found.changes.reset();
+      if (!reports_changes_) found.changes.reset();
       if (found.changes) before->results.report = std::move(found.earlier);
     } else {
       found.report = clash::detect(scene, sets, options, policy, context_).value();
     }
-    if (found.changes) ++told_;
+    if (found.changes) ++reported_;
     found.report.counters = {};
     const clash::Report report = found.report;
     const TestedTest tested{&found.report,
@@ -101,9 +101,9 @@ class Remembered : public ::testing::Test {
     const std::optional<StoredTest> stored = read_test(*database_, "", context_).value();
     for (std::size_t i = 0; i < report.pairs.size(); ++i) {
       const clash::Pair& pair = report.pairs[i];
-      const report::DecidedResult* const said = decided.of(0, pair);
+      const report::DecidedResult* const stated = decided.of(0, pair);
       const DecisionStatus status =
-          said == nullptr ? DecisionStatus::undecided : said->decision->status;
+          stated == nullptr ? DecisionStatus::undecided : stated->decision->status;
       if (pair.allowed >= 0) continue;
       const std::string key = row_key(stored->results.rows[i]);
       EXPECT_EQ(name(status), name(by_key[key])) << key;
@@ -138,10 +138,10 @@ class Remembered : public ::testing::Test {
   }
   std::unique_ptr<Database> database_;
   parallel::Context context_;
-  bool follows_ = false;    ///< whether runs follow changes
-  bool tells_ = false;      ///< whether such runs tell what they did to the results
-  int told_ = 0;            ///< runs that told
-  bool is_forged_ = false;  ///< rows belong to another test than the one that found them
+  bool follows_ = false;          ///< whether runs follow changes
+  bool reports_changes_ = false;  ///< whether such runs tell what they did to the results
+  int reported_ = 0;              ///< runs that told
+  bool is_forged_ = false;        ///< rows belong to another test than the one that found them
 };
 
 using Statuses = std::vector<std::string>;
@@ -161,23 +161,23 @@ TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
 TEST_F(Remembered, bytes_do_not_depend_on_the_number_of_workers) {
   // Two parts of 1,024 objects, and a change after it.
   const ClashModel before = row(1500), now = row(1501, 20, 1);
-  std::set<std::string> seen;
+  std::set<std::string> known;
   for (const unsigned workers : {1U, 2U, 3U, 8U, 64U}) {
     SetUp();
     parallel::Team team(workers);
     context_.team = &team;
     EXPECT_EQ(run(before).trends[0].appeared, 1499U);
     run(now);
-    seen.insert(database_->serialized().value());
+    known.insert(database_->serialized().value());
     context_ = {};
   }
-  EXPECT_EQ(seen.size(), 1U);
+  EXPECT_EQ(known.size(), 1U);
 }
 
-TEST_F(Remembered, what_a_run_tells_of_its_changes_is_remembered_as_what_is_compared) {
+TEST_F(Remembered, what_a_run_reports_its_changes_is_remembered_as_what_is_compared) {
   clash::Options options;
   options.engine.keep_for_changes = true;
-  options.engine.most_regions = 8;
+  options.engine.max_regions = 8;
   // Deeper, apart, longer, shorter, beside, and as it was: of some clashes people decided.
   const auto week = [&] {
     SetUp();
@@ -202,10 +202,10 @@ TEST_F(Remembered, what_a_run_tells_of_its_changes_is_remembered_as_what_is_comp
   };
   follows_ = true;
   const std::string compared = week();
-  EXPECT_EQ(told_, 0);
-  tells_ = true;
+  EXPECT_EQ(reported_, 0);
+  reports_changes_ = true;
   EXPECT_TRUE(week() == compared);  // two databases are no text to be shown
-  EXPECT_EQ(told_, 8);
+  EXPECT_EQ(reported_, 8);
 }
 
 TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashes) {
@@ -315,7 +315,7 @@ TEST_F(Remembered, files_that_end_early_and_objects_not_read_whole_resolve_nothi
   EXPECT_EQ(statuses(), Statuses{"resolved"});
 }
 
-TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_tell) {
+TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_decide) {
   run(row(2));
   clash::Policy allowing;
   allowing.allowed.push_back({"meant", {true, true}, {true, true}, {}, {}, 1000, {}, {}});
@@ -333,7 +333,7 @@ TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_tell)
   EXPECT_EQ(statuses(), Statuses{"active"});
 }
 
-TEST_F(Remembered, a_test_that_reaches_less_far_cannot_tell_on_any_later_night) {
+TEST_F(Remembered, a_test_that_reaches_less_far_cannot_decide_on_any_later_night) {
   clash::Options far;
   far.tolerances.clearance_mm = 25;
   run(row(2, -20), far);

@@ -184,7 +184,7 @@ TEST_F(StoredViews, AreFoundAgain) {
 }
 
 /// By the names of then, whatever the model and the view are now.
-TEST_F(StoredViews, TellWhatTheyShowedByName) {
+TEST_F(StoredViews, ReportWhatTheyShowedByName) {
   ASSERT_TRUE(store("deck", R"({"view":"top"})"));
   const auto former = former_drawing(database(), "deck", {});
   ASSERT_TRUE(former) << former.error().text();
@@ -239,7 +239,7 @@ TEST_F(StoredViews, LinesOfAnotherSignatureAreNone) {
   EXPECT_FALSE(*stored) << "another version of the program may solve otherwise";
 }
 
-TEST_F(StoredViews, ThatAreNotThereAreTold) {
+TEST_F(StoredViews, ThatAreNotThereAreReported) {
   const auto none = find_view(database(), "deck");
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::usage);
@@ -267,7 +267,7 @@ TEST_F(StoredViews, SettingsAndLinesAreStoredApart) {
   EXPECT_TRUE(view->last) << "signatures tell whether the lines hold, not the settings";
 }
 
-TEST_F(StoredViews, DamageIsTold) {
+TEST_F(StoredViews, DamageIsReported) {
   for (const char* const damage :
        {"UPDATE drawing SET lines = x'00'", "UPDATE drawing SET made_from = x''",
         "UPDATE drawing SET lines = made_from", "UPDATE drawing SET made_from = lines"}) {
@@ -428,7 +428,7 @@ TEST_F(StoredViews, RenamedObjectsWriteTheirPartsAlone) {
   EXPECT_TRUE(have_same_parts("deck", "all of it"));
 }
 
-TEST_F(StoredViews, DamagedPartsAreTold) {
+TEST_F(StoredViews, DamagedPartsAreReported) {
   take_ship();
   for (
       const char* const damage :

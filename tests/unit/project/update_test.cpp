@@ -113,11 +113,12 @@ TEST_F(Updates, WhatIsLikeNothingIsRefused) {
   const Result<Update> refused = update(project, {{{other, {}}}, {}}, {kNow}, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
-  const Result<Update> asked = update(project, {{{other, {}}}, {"a.obj=z.obj"}}, {kNow}, {});
-  ASSERT_TRUE(asked) << asked.error().text();
+  const Result<Update> update_result =
+      update(project, {{{other, {}}}, {"a.obj=z.obj"}}, {kNow}, {});
+  ASSERT_TRUE(update_result) << update_result.error().text();
   EXPECT_EQ(labels(project), std::vector<std::string>{"z.obj"});
-  EXPECT_EQ(count(*asked, ChangeKind::added), 8U);
-  EXPECT_EQ(count(*asked, ChangeKind::removed), 8U);
+  EXPECT_EQ(count(*update_result, ChangeKind::added), 8U);
+  EXPECT_EQ(count(*update_result, ChangeKind::removed), 8U);
 }
 
 TEST_F(Updates, AFileThatWasSplitIsTwo) {
@@ -130,7 +131,7 @@ TEST_F(Updates, AFileThatWasSplitIsTwo) {
   EXPECT_EQ(done->changes.unchanged, 60U);
 }
 
-TEST_F(Updates, WhatWasSaidOfAFileIsSaidOfItsSuccessor) {
+TEST_F(Updates, WhatWasStatedOfAFileIsStatedOfItsSuccessor) {
   const fs::path a = folder().write("a.obj", triangles(names("p", 0, 8)));
   Result<Project> project = Project::create(folder().path() / "ship.strake");
   ASSERT_TRUE(project);

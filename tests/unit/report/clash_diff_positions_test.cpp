@@ -55,7 +55,7 @@ struct Runs {
   Runs(const std::string& x, const std::string& y)
       : before(parsed(x).value()), after(parsed(y).value()), diff(compare(before, after)) {}
 
-  /// How many are new, changed, the same, gone, and cannot be told.
+  /// How many are new, changed, the same, gone, and cannot be known.
   [[nodiscard]] std::vector<std::size_t> counts() const {
     return {diff.added.size(), diff.changed.size(), diff.same.size(), diff.gone.size(),
             diff.cannot_tell.size()};
@@ -101,7 +101,7 @@ TEST(ClashDiffPositions, AnotherClashOfTheSameNumbersIsNotTheOldOne) {
   EXPECT_EQ(Runs(after, before).counts(), (Counts{0, 0, 0, 0, 2}));
 }
 
-TEST(ClashDiffPositions, AnotherDepthAtThatPlaceIsNotToBeTold) {
+TEST(ClashDiffPositions, AnotherDepthAtThatPlaceIsNotToBeDecided) {
   const Runs runs(unnamed({{0, 0, 0}, {90, 0, 0}}), unnamed({{0, 0, 0}, {89, 0, 0}}));
   EXPECT_EQ(runs.counts(), (Counts{0, 0, 0, 0, 2}));
 }
@@ -146,7 +146,7 @@ TEST(ClashDiffPositions, ANameThatIsRepeatedSinceIsNoLastingId) {
   EXPECT_EQ(Runs(after, before).counts(), (Counts{0, 0, 0, 0, 2}));
 }
 
-TEST(ClashDiffPositions, ResultsThatDoNotSayItAreComparedByKey) {
+TEST(ClashDiffPositions, ResultsThatDoNotStateItAreComparedByKey) {
   const auto silent = [](std::string text) {
     const std::size_t at = text.find("\"positional_ids\"");
     return text.erase(at, text.find('\n', at) + 1 - at);
@@ -170,7 +170,7 @@ TEST(ClashDiffPositions, BitsThatDoNotGoWithTheElementsAreRefused) {
             std::string::npos);
 }
 
-TEST(ClashDiffPositions, TheKeyOfTheOldRunIsTold) {
+TEST(ClashDiffPositions, TheKeyOfTheOldRunIsReported) {
   const Runs runs(unnamed({{0, 0, 0}, {90, 0, 0}}),
                   unnamed({{-5000, 0, 0}, {0, 0, 0}, {90, 0, 0}, {-5050, 0, 0}}));
   ASSERT_EQ(runs.counts(), (Counts{0, 0, 1, 0, 1}));

@@ -160,11 +160,11 @@ TEST(ClashDiff, MoreOrFewerPlacesAreAChange) {
   EXPECT_EQ(entry["region_count"], 3);
   EXPECT_EQ(entry["was"]["region_count"], 2);
   const ClashDocument& uncounted =
-      document(folder, "z.json", run(after, {.engine = {.most_regions = 0}}), after.model);
+      document(folder, "z.json", run(after, {.engine = {.max_regions = 0}}), after.model);
   EXPECT_EQ(compare(x, uncounted).same.size(), 1U) << "what was not counted is no change";
 }
 
-TEST(ClashDiff, TellsWhichDepthIsIncomplete) {
+TEST(ClashDiff, ReportsWhichDepthIsIncomplete) {
   Folder folder;
   const ClashModel m = row();
   clash::Findings unfinished = run(m);
@@ -310,7 +310,7 @@ TEST(ClashDiff, WeldingThatMovedAPairOutOfReach) {
   EXPECT_EQ(diff.cannot_tell[0].why, "settings differ: weld_mm");
 }
 
-TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {
+TEST(ClashDiff, RulesThatAreNotTheSameAreReported) {
   Folder folder;
   const ClashModel m = row();
   const clash::Findings findings = run(m);
@@ -324,19 +324,19 @@ TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {
   const ClashDocument& one = made_by("1.json", {"a.toml", {1, 1}});
   const ClashDocument& changed = made_by("2.json", {"a.toml", {1, 2}});
   const ClashDocument& other = made_by("3.json", {"b.toml", {1, 1}});
-  const auto told = [](const ClashDocument& x, const ClashDocument& y) {
+  const auto reported = [](const ClashDocument& x, const ClashDocument& y) {
     const std::string table = clash_diff_table(compare(x, y), {});
     return table.substr(0, table.find('\n'));
   };
-  EXPECT_EQ(told(one, one), "0 new, 0 changed, 2 unchanged, 0 gone, 0 cannot tell");
-  EXPECT_EQ(told(one, changed), "rules file a.toml is not what it was");
-  EXPECT_EQ(told(one, other), "rules: were a.toml, are b.toml");
-  EXPECT_EQ(told(plain, one), "rules: were none, are a.toml");
+  EXPECT_EQ(reported(one, one), "0 new, 0 changed, 2 unchanged, 0 gone, 0 cannot tell");
+  EXPECT_EQ(reported(one, changed), "rules file a.toml is not what it was");
+  EXPECT_EQ(reported(one, other), "rules: were a.toml, are b.toml");
+  EXPECT_EQ(reported(plain, one), "rules: were none, are a.toml");
   const ClashDocument& profile = made_by("4.json", {"plant.toml", {1, 1}, "plant"});
   const ClashDocument& later = made_by("5.json", {"plant.toml", {1, 2}, "plant"});
-  EXPECT_EQ(told(profile, later), "profile plant is not what it was");
-  EXPECT_EQ(told(plain, profile), "rules: were none, are profile plant");
-  EXPECT_EQ(told(profile, made_by("6.json", {"plant.toml", {1, 1}})),
+  EXPECT_EQ(reported(profile, later), "profile plant is not what it was");
+  EXPECT_EQ(reported(plain, profile), "rules: were none, are profile plant");
+  EXPECT_EQ(reported(profile, made_by("6.json", {"plant.toml", {1, 1}})),
             "rules: were profile plant, are plant.toml");
   std::string text;
   write_clash_diff_json(compare(plain, one), [&](std::string_view piece) { text += piece; });
@@ -367,12 +367,12 @@ TEST(ClashDiff, ExemptedAndAllowed) {
   const ClashDocument& plain = document(folder, "p.json", run(m), m.model);
   const ClashDocument& listed = document(folder, "l.json", under(true), m.model);
   const ClashDocument& counted = document(folder, "c.json", under(false), m.model);
-  const ClashDiff told = compare(plain, listed);
-  EXPECT_EQ(names(told, told.cannot_tell), Names{"a-b"});
-  EXPECT_EQ(told.cannot_tell[0].why, "exempted by one unit");
-  EXPECT_EQ(names(told, told.changed), Names{"b-c"});
-  EXPECT_EQ(listed.allowed(*told.changed[0].after), "sleeve");
-  EXPECT_FALSE(told.has_worse());
+  const ClashDiff reported = compare(plain, listed);
+  EXPECT_EQ(names(reported, reported.cannot_tell), Names{"a-b"});
+  EXPECT_EQ(reported.cannot_tell[0].why, "exempted by one unit");
+  EXPECT_EQ(names(reported, reported.changed), Names{"b-c"});
+  EXPECT_EQ(listed.allowed(*reported.changed[0].after), "sleeve");
+  EXPECT_FALSE(reported.has_worse());
   EXPECT_TRUE(compare(listed, plain).has_worse()) << "allowed no more";
   EXPECT_EQ(compare(plain, counted).cannot_tell[0].why,
             "may be among the 1 exempted pairs, which are not listed");
@@ -433,7 +433,7 @@ TEST(ClashDiff, TestsGoTogetherByName) {
             std::string::npos);
 }
 
-TEST(ClashDiff, TableTellsTheTestWhereThereAreSeveral) {
+TEST(ClashDiff, TableReportsTheTestWhereThereAreSeveral) {
   Folder folder;
   const ClashModel m = row();
   clash::Findings two = run(m);
@@ -489,7 +489,7 @@ TEST(ClashDocument, NamesThatAreNoUtf8AreFoundAgain) {
   EXPECT_EQ(compare(x, document(folder, "y.json", run(apart), apart.model)).gone.size(), 1U);
 }
 
-TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
+TEST(ClashDocument, StatesWhatIsWrongAndWhere) {
   Folder folder;
   const auto error = [&](std::string_view text) {
     const auto read = read_clash_document(folder.write("bad.json", text));
@@ -497,9 +497,9 @@ TEST(ClashDocument, SaysWhatIsWrongAndWhere) {
     return read ? std::string() : read.error().text();
   };
   const auto expect = [&](std::string_view text, const std::string& part) {
-    const std::string said = error(text);
-    EXPECT_NE(said.find("bad.json"), std::string::npos) << said;
-    EXPECT_NE(said.find(part), std::string::npos) << said;
+    const std::string stated = error(text);
+    EXPECT_NE(stated.find("bad.json"), std::string::npos) << stated;
+    EXPECT_NE(stated.find(part), std::string::npos) << stated;
   };
   expect("", "ends too soon");
   expect("[1, 2", "ends too soon");

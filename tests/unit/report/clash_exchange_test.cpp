@@ -67,7 +67,7 @@ TEST(ClashXml, GuidsStayWithTheClashAndNotWithItsPlaceInTheFile) {
   EXPECT_TRUE(has(written(write_clash_xml, {findings, m.model}), "\"Clash2\" guid=\"" + guid));
 }
 
-TEST(ClashXml, TellsWhatWasDecided) {
+TEST(ClashXml, ReportsWhatWasDecided) {
   const ClashModel m = row_of_boxes();
   const clash::Findings findings = findings_up_to_25_mm(m);
   const std::vector<clash::Pair>& pairs = findings.tests[0].pairs;
@@ -154,7 +154,7 @@ TEST(IfcclashJson, HasASetForEachKindOfResult) {
   EXPECT_EQ(sets[2]["clashes"]["c-d"]["type"], "clearance");
 }
 
-TEST(IfcclashJson, IdsOfSeveralFilesAreToldApart) {
+TEST(IfcclashJson, IdsOfSeveralFilesAreDistinguished) {
   ClashModel m = row_of_boxes();
   m.model.files.push_back({"u.obj", "OBJ", "mm", "z", 1, 0});
   m.model.objects[2].file = m.model.objects[3].file = 1;
@@ -167,7 +167,7 @@ TEST(IfcclashJson, IdsOfSeveralFilesAreToldApart) {
   EXPECT_TRUE(clashes.contains("u.obj:a-u.obj:b")) << clashes;
 }
 
-TEST(IfcclashJson, IdsWithHyphensAreToldApart) {
+TEST(IfcclashJson, IdsWithHyphensAreDistinguished) {
   ClashModel m = row_of_boxes();
   m.model.objects[0].id = "x-y";
   m.model.objects[1].id = "z";

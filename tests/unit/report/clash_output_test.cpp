@@ -100,7 +100,7 @@ TEST(ClashCsv, TheLogOfPairsHasTheSameForm) {
   EXPECT_TRUE(log.starts_with("\xEF\xBB\xBFtest;a_id;a_name;")) << log;
 }
 
-TEST(ClashClasses, LeaveOthersOutAndSaySo) {
+TEST(ClashClasses, LeaveOthersOutAndReportIt) {
   const ClashModel m = tagged_boxes();
   clash::Findings findings = findings_up_to_25_mm(m);
   const WrittenClasses classes{.contact = false, .clearance_violation = false};

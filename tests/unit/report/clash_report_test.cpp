@@ -53,17 +53,17 @@ TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
   const json doc = json::parse(as_json(report, m.model));
   EXPECT_EQ(doc["schema_version"], 2);
   ASSERT_EQ(doc["tests"].size(), 1U);
-  const json& told = doc["tests"][0];
-  EXPECT_EQ(told["name"], "");
-  EXPECT_EQ(told["sets"], json({{"a", "*"}, {"b", "*"}}));
-  EXPECT_EQ(told["objects"], json({{"a", 4}, {"b", 4}}));
-  EXPECT_EQ(told["settings"]["clearance_mm"], 25);
-  EXPECT_EQ(told["counts"]["HIT"], 1);
-  EXPECT_EQ(told["counts"]["CONTACT"], 1);
-  EXPECT_EQ(told["counts"]["CLEARANCE_VIOLATION"], 1);
-  EXPECT_EQ(told["counts"]["ALLOWED"], 0);
-  EXPECT_TRUE(told["exempted"].empty());
-  EXPECT_EQ(told["hash"], report.hash);
+  const json& reported = doc["tests"][0];
+  EXPECT_EQ(reported["name"], "");
+  EXPECT_EQ(reported["sets"], json({{"a", "*"}, {"b", "*"}}));
+  EXPECT_EQ(reported["objects"], json({{"a", 4}, {"b", 4}}));
+  EXPECT_EQ(reported["settings"]["clearance_mm"], 25);
+  EXPECT_EQ(reported["counts"]["HIT"], 1);
+  EXPECT_EQ(reported["counts"]["CONTACT"], 1);
+  EXPECT_EQ(reported["counts"]["CLEARANCE_VIOLATION"], 1);
+  EXPECT_EQ(reported["counts"]["ALLOWED"], 0);
+  EXPECT_TRUE(reported["exempted"].empty());
+  EXPECT_EQ(reported["hash"], report.hash);
   EXPECT_EQ(doc["hash"], clash::hash_of(clash::Findings{{report}, {}}));
   EXPECT_EQ(doc["files"][0]["label"], "t.obj");
   ASSERT_EQ(doc["results"].size(), 3U);
@@ -86,7 +86,7 @@ TEST(ClashJson, HasTheKeysThatScriptsRelyOn) {
   EXPECT_EQ(doc["results"][2]["d_mm"], 10);
 }
 
-TEST(ClashJson, SettingsSayNothingOfTheRun) {
+TEST(ClashJson, SettingsStateNothingOfTheRun) {
   const ClashModel m = row_of_boxes();
   const json doc = json::parse(as_json(m.detect(), m.model));
   for (const auto& [key, value] : doc["tests"][0]["settings"].items())
@@ -131,7 +131,7 @@ clash::Report unfinished_report(const ClashModel& m) {
   return report;
 }
 
-TEST(ClashReports, TellWhereADepthIsIncomplete) {
+TEST(ClashReports, ReportWhereADepthIsIncomplete) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = unfinished_report(m);
   const json results = json::parse(as_json(report, m.model))["results"];
@@ -208,7 +208,7 @@ clash::Report ruled_report(const ClashModel& m) {
   return clash::detect(scene, clash::one_set(scene), options, policy, {}).value();
 }
 
-TEST(ClashReports, TellWhatRulesDid) {
+TEST(ClashReports, ReportWhatRulesDid) {
   const ClashModel m = row_of_boxes();
   const clash::Report report = ruled_report(m);
   const json doc = json::parse(as_json(report, m.model));
@@ -545,7 +545,7 @@ TEST(ClashTable, ShowsTheVolumeThatItSortsBy) {
   EXPECT_EQ(clash_table({{{report}, {}}, m.model}, {}).find("volume"), std::string::npos);
 }
 
-TEST(ClashTable, NothingFoundIsSaid) {
+TEST(ClashTable, NothingFoundIsStated) {
   ClashModel m;
   m.box("a", {0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(clash_table({{{m.detect()}, {}}, m.model}, {}),

@@ -76,7 +76,7 @@ TEST(ClashTable, HasThePlaceInMillimetres) {
             "1 hit, 0 contacts, 0 clearance violations\n");
 }
 
-TEST(ClashTable, TellsTheCommonPathOnce) {
+TEST(ClashTable, ReportsTheCommonPathOnce) {
   const std::string text =
       table_of(two_boxes("BOX 1 of STRUCTURE /PLANT/WD1/0010", "/PLANT/WD1/0011"));
   EXPECT_TRUE(text.starts_with("~ stands for /PLANT/WD1\nclass ")) << text;

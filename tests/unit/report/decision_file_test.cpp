@@ -84,7 +84,7 @@ TEST(Decisions, AreReadInAnyFormThatASpreadsheetWrites) {
   }
 }
 
-TEST(Decisions, TellWhereAFileIsWrong) {
+TEST(Decisions, ReportWhereAFileIsWrong) {
   const std::string key(26, '0'), head = "key,status,date,d_mm\n";
   EXPECT_TRUE(
       error_of("key,state\n")
@@ -134,7 +134,7 @@ TEST(Decisions, HaveNumbersThatCannotBeMistaken) {
             "nothing)");
 }
 
-TEST(Decisions, AreNotInRowsThatSayNothing) {
+TEST(Decisions, AreNotInRowsThatStateNothing) {
   const std::string key(26, '0');
   EXPECT_TRUE(parsed("key,status,note\n,,a word\n , ,\n").decisions.empty());
   EXPECT_TRUE(parsed("key,status,class,test\n,,EXEMPTED,t\n").decisions.empty())

@@ -107,7 +107,7 @@ TEST(Decisions, StayWithTheirPlacesWhereAnObjectBeforeThemIsGone) {
   EXPECT_EQ(next.updated(), updated.text);
 }
 
-TEST(UpdatedDecisions, TellWhichResultsHaveNoRowAsTheirKeysAreTaken) {
+TEST(UpdatedDecisions, ReportWhichResultsHaveNoRowAsTheirKeysAreTaken) {
   const std::string text = decided_pipes();
   const UpdatedDecisions updated =
       update_decisions(Decided(pipes({1000, 1300, 1600}), text).contents());
@@ -167,7 +167,7 @@ TEST(Decisions, FollowAFileThatWasRenamed) {
   EXPECT_TRUE(third.results.files.by_label_alone());
 }
 
-TEST(Decisions, FollowAFileThatSomebodySaysWasRenamed) {
+TEST(Decisions, FollowAFileThatSomebodyStatesWasRenamed) {
   const std::string key = key_of(three_boxes(), 0, 1), csv = "key,status\n" + row(key, "approved");
   EXPECT_EQ(Decided(renamed("n.obj"), csv).results.not_found.size(), 1U);
   const std::vector<std::string> pairs{"t.obj=n.obj"};

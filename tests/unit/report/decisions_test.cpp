@@ -210,11 +210,11 @@ TEST(UpdatedDecisions, AreAboutOneMeasurement) {
   EXPECT_EQ(without.regions, 7U) << "a file that never had depths states regions of its own";
 }
 
-TEST(Decisions, TellOfPlacesThatNobodyCounted) {
+TEST(Decisions, ReportPlacesThatNobodyCounted) {
   const ClashModel m = three_boxes();
-  const auto unknown = [&](std::uint64_t most_regions, const std::string& csv) {
+  const auto unknown = [&](std::uint64_t max_regions, const std::string& csv) {
     clash::Options options;
-    options.engine.most_regions = most_regions;
+    options.engine.max_regions = max_regions;
     const clash::Findings findings{{m.detect(options)}, {}};
     const DecisionFile file = parsed("key,status,regions\n" + row(key_of(m, 0, 1), csv));
     return decide(findings, m.model, file, {})->count_regions_unknown();

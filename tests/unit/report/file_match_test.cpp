@@ -40,15 +40,15 @@ FileContents file(std::string label, Ids of, const Places& places = {}) {
 }
 
 FileMatches matched(std::vector<FileContents> before, std::vector<FileContents> after,
-                    const std::vector<FilePair>& asked = {}) {
-  auto files = match_files({std::move(before), {}}, {std::move(after), {}}, asked);
+                    const std::vector<FilePair>& given_pairs = {}) {
+  auto files = match_files({std::move(before), {}}, {std::move(after), {}}, given_pairs);
   EXPECT_TRUE(files) << files.error().text();
   return files ? std::move(*files) : FileMatches{};
 }
 
-std::string faults_of(const std::vector<FilePair>& asked) {
+std::string faults_of(const std::vector<FilePair>& given_pairs) {
   const auto files = match_files({{file("a", {}), file("b", {})}, {}},
-                                 {{file("b", {}), file("c", {})}, {}}, asked);
+                                 {{file("b", {}), file("c", {})}, {}}, given_pairs);
   return files ? "" : files.error().text();
 }
 
@@ -132,7 +132,7 @@ TEST(FileMatch, PlacesDecideBetweenFilesOfTheSameIds) {
   EXPECT_EQ(files.matches[1].before, "port");
 }
 
-TEST(FileMatch, EquallyLikeFilesAreToldAndNotGuessed) {
+TEST(FileMatch, EquallyLikeFilesAreReportedAndNotGuessed) {
   const FileMatches one =
       matched({file("port", ids(0, 9)), file("starboard", ids(0, 9))}, {file("new", ids(0, 9))});
   EXPECT_TRUE(one.matches.empty());
@@ -192,14 +192,15 @@ TEST(FileMatch, APartLeavesAFileThatKeepsItsName) {
   EXPECT_EQ(copied.only_after, Ids{"copy"}) << "nothing left the ship";
 }
 
-TEST(FileMatch, AskedPairsComeFirst) {
+TEST(FileMatch, RequestedPairsComeFirst) {
   const std::vector<FileContents> before{file("a", ids(0, 9)), file("b", ids(10, 19))};
   const std::vector<FileContents> after{file("a", ids(10, 19)), file("b", ids(0, 9))};
   const FileMatches swapped = matched(before, after, {{"a", "b"}});
   EXPECT_EQ(swapped.matches, (std::vector<FileMatch>{{"b", "a", FileRelation::renamed, 9, 9},
                                                      {"a", "b", FileRelation::requested, 9, 9}}));
-  const FileMatches told = matched({file("x", ids(0, 2))}, {file("y", ids(5, 7))}, {{"x", "y"}});
-  EXPECT_EQ(file_matches_text(told),
+  const FileMatches reported =
+      matched({file("x", ids(0, 2))}, {file("y", ids(5, 7))}, {{"x", "y"}});
+  EXPECT_EQ(file_matches_text(reported),
             "files are taken as renamed: x -> y (as asked for, 0 of 4 ids in common)\n");
 }
 
@@ -227,7 +228,7 @@ TEST(FileMatch, APairAsItIsWritten) {
     EXPECT_NE(read(text).find("names no two files"), std::string::npos) << text;
 }
 
-TEST(FileMatch, WhatIsLeftOverInBothRunsIsTold) {
+TEST(FileMatch, WhatIsLeftOverInBothRunsIsReported) {
   const FileMatches files = matched({file("a", ids(0, 9))}, {file("b", ids(20, 29))});
   EXPECT_EQ(
       file_matches_text(files),
@@ -320,7 +321,7 @@ TEST(FileMatch, AnExcerptIsAFileThatHasMostOfIt) {
   EXPECT_EQ(match_files(before, after)->matches.at(0).relation, FileRelation::merged);
 }
 
-TEST(FileMatch, NoNumbersAreToldWhereThereIsNothingToCompare) {
+TEST(FileMatch, NoNumbersAreReportedWhereThereIsNothingToCompare) {
   EXPECT_EQ(file_matches_text(matched({file("x", {})}, {file("y", {}, {1, 2})}, {{"x", "y"}})),
             "files are taken as renamed: x -> y\n");
 }

@@ -29,7 +29,7 @@ std::optional<std::string> copied(const std::string& text) {
   }
 }
 
-TEST(JsonReader, TakesWhatItIsAskedForAndSkipsTheRest) {
+TEST(JsonReader, TakesWhatIsRequestedAndSkipsTheRest) {
   std::istringstream in(
       "\xEF\xBB\xBF {\"skip\": [1, {\"x\": [null, true]}, \"]\"], \"d\" : -2.5e1 "
       ",\"t\":\"\\u00e4\\ud83d"

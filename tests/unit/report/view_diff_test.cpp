@@ -78,15 +78,15 @@ TEST(ViewDiff, ScaleAndPlaceOnPaperChangeNoLine) {
   EXPECT_FALSE(compared(before, after).differs(false));
 }
 
-TEST(ViewDiff, OfABoxThatMovedTheObjectIsTold) {
+TEST(ViewDiff, OfABoxThatMovedTheObjectIsReported) {
   const ViewDocument before = test::view_document(test::view_file(crowd(0)));
   const ViewDocument after = test::view_document(test::view_file(crowd(11)));
   const ViewDiff diff = compared(before, after);
   ASSERT_FALSE(diff.by_object.empty());
-  bool told = false;
+  bool reported = false;
   for (const auto& [object, counts] : diff.by_object)
-    told = told || diff.objects[object]->id == "box5";
-  EXPECT_TRUE(told);
+    reported = reported || diff.objects[object]->id == "box5";
+  EXPECT_TRUE(reported);
   EXPECT_TRUE(diff.differs(true));
   // What is gone and new of it is all of its edges but what still lies along x.
   EXPECT_GT(lines(diff, LineChange::gone), 8U);
@@ -114,7 +114,7 @@ TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   EXPECT_EQ(diff.settings[0].setting, "settings.stage");
 }
 
-TEST(ViewDiff, OtherSelectionsThatSectionsLeaveWholeAreTold) {
+TEST(ViewDiff, OtherSelectionsThatSectionsLeaveWholeAreReported) {
   const auto document = [](std::vector<std::string> selections) {
     test::Drawn how;
     how.options.uncut.resize(12);
@@ -142,7 +142,7 @@ ViewDocument left_out(const ViewDocument& whole) {
   return rest;
 }
 
-TEST(ViewDiff, WhatLimitsLeftOutIsToldAndCountedApart) {
+TEST(ViewDiff, WhatLimitsLeftOutIsReportedAndCountedApart) {
   const ViewDocument whole =
       drawn({line({0, 0, 0}, {90'000, 0, 0}, 0), line({0, 5, 0}, {0, 70'000, 0}, 1),
              line({0, 9, 9}, {50'000, 9, 9}, 0)});
@@ -367,8 +367,8 @@ TEST(ViewDiff, TheLegendCountsWhatIsPainted) {
             std::count(svg.begin() + static_cast<std::ptrdiff_t>(at),
                        svg.begin() + static_cast<std::ptrdiff_t>(svg.find("\"/>", at)), 'M'));
     }
-    const std::string told = ">" + name + ": " + std::to_string(painted) + "</text>";
-    EXPECT_NE(svg.find(told, legend), std::string::npos) << told;
+    const std::string reported = ">" + name + ": " + std::to_string(painted) + "</text>";
+    EXPECT_NE(svg.find(reported, legend), std::string::npos) << reported;
     if (name == "gone") {
       EXPECT_GE(painted, clipped / 2);
     }

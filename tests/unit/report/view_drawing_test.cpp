@@ -160,7 +160,7 @@ TEST(ViewDrawing, IsPutOnAnotherSheet) {
     for (const Drawn& how : views()) expect_on_another_sheet(model, how);
 }
 
-TEST(ViewDrawing, KeepsItsSheetWhereItIsAskedForIt) {
+TEST(ViewDrawing, KeepsItsSheetWhereRequested) {
   const model::Model model = ship();
   const NeutralDrawing drawn = on_paper(model, views()[0]);
   drawing::LayoutOptions same;
@@ -181,26 +181,27 @@ TEST(ViewDrawing, OfAnotherLayoutIsNotPutElsewhere) {
   EXPECT_EQ(again.error().code, ErrorCode::input);
 }
 
-TEST(ViewDrawing, WhatIsWrongIsTold) {
+TEST(ViewDrawing, WhatIsWrongIsReported) {
   const std::string sound = text_of(on_paper(ship(), views()[1]), ship(), ViewForm::text);
   EXPECT_EQ(fault_of(sound), "");
-  const auto told = [&](const std::string& what, const std::string& by) {
+  const auto reported = [&](const std::string& what, const std::string& by) {
     return fault_of(with(sound, what, by));
   };
-  EXPECT_NE(told("\"edge\":", "\"other\":").find("\"edge\""), std::string::npos);
-  EXPECT_NE(told("\"direction\":[0,0,1]", "\"direction\":[0,0,1.5]").find("direction"),
+  EXPECT_NE(reported("\"edge\":", "\"other\":").find("\"edge\""), std::string::npos);
+  EXPECT_NE(reported("\"direction\":[0,0,1]", "\"direction\":[0,0,1.5]").find("direction"),
             std::string::npos);
-  EXPECT_NE(told("\"direction\":[0,0,1]", "\"direction\":[0,0]").find("direction"),
+  EXPECT_NE(reported("\"direction\":[0,0,1]", "\"direction\":[0,0]").find("direction"),
             std::string::npos);
-  EXPECT_NE(told("\"scale_text\":\"", "\"scale_word\":\"").find("scale_text"), std::string::npos);
-  EXPECT_NE(told("\"stage\":\"global\"", "\"stage\":\"worldwide\"").find("stage"),
+  EXPECT_NE(reported("\"scale_text\":\"", "\"scale_word\":\"").find("scale_text"),
             std::string::npos);
-  EXPECT_NE(told("\"hash\":\"", "\"hash\":\"x").find("hash"), std::string::npos);
+  EXPECT_NE(reported("\"stage\":\"global\"", "\"stage\":\"worldwide\"").find("stage"),
+            std::string::npos);
+  EXPECT_NE(reported("\"hash\":\"", "\"hash\":\"x").find("hash"), std::string::npos);
   const std::string round = text_of(on_paper(pipes(), views()[0]), pipes(), ViewForm::text);
   EXPECT_NE(fault_of(with(round, "\"curve_index\":0", "\"curve_index\":4000")).find("curve 4000"),
             std::string::npos);
-  EXPECT_NE(told("\"width_mm\":420", "\"width_mm\":4e9").find("sheet"), std::string::npos);
-  EXPECT_NE(told("\"width_mm\":420", "\"width_mm\":0.001").find("sheet"), std::string::npos);
+  EXPECT_NE(reported("\"width_mm\":420", "\"width_mm\":4e9").find("sheet"), std::string::npos);
+  EXPECT_NE(reported("\"width_mm\":420", "\"width_mm\":0.001").find("sheet"), std::string::npos);
   EXPECT_NE(fault_of(with(round, "\"a_paper_mm\":[", "\"a_paper_mm\":[9")).find("sheet"),
             std::string::npos);
   for (std::size_t length = 0; length < sound.size(); length += sound.size() / 97 + 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary neutral drawings: they say what the text says, and what is wrong with them is told.
+// Binary neutral drawings: they say what the text says, and what is wrong with them is reported.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -56,7 +56,7 @@ void expect_same(const ViewDocument& text, const ViewDocument& rows) {
   }
 }
 
-TEST(ViewRows, SayWhatTheTextSays) {
+TEST(ViewRows, StateWhatTheTextStates) {
   // 3 km apart, numbers of 32 bits suffice; 30,000 km apart they do not.
   for (const auto& [apart, bytes] :
        {std::pair(500.0, 64), std::pair(3e6, 64), std::pair(3e10, 104)}) {
@@ -72,7 +72,7 @@ TEST(ViewRows, SayWhatTheTextSays) {
   }
 }
 
-TEST(ViewRows, PointsThatNothingCanHaveAreTold) {
+TEST(ViewRows, PointsThatNothingCanHaveAreReported) {
   const std::string sound = test::view_file(crowd(3e10), {}, ViewForm::rows);
   for (const auto& [offset, key] : {std::pair(24, "a_um"), std::pair(88, "b_paper_um")})
     for (const std::int64_t um : {INT64_MAX, INT64_MIN, std::int64_t{4} << 60U}) {
@@ -85,7 +85,7 @@ TEST(ViewRows, PointsThatNothingCanHaveAreTold) {
     }
 }
 
-TEST(ViewRows, WhatIsWrongIsTold) {
+TEST(ViewRows, WhatIsWrongIsReported) {
   const std::string sound = test::view_file(crowd(500), {}, ViewForm::rows);
   const auto error_of = [](const std::string& bytes) {
     std::istringstream in(bytes);

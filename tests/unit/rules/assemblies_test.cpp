@@ -10,13 +10,13 @@ namespace {
 
 using test::Counts;
 using test::exempted;
+using test::ResultLines;
 using test::Row;
-using test::Told;
 using test::warned;
 
 constexpr const char* kRule = "[[same_assembly]]\nname = \"parts of one\"\nlevel = \"assembly\"\n";
 
-TEST(Assemblies, NamesOfUnnamedElementsTellTheLevel) {
+TEST(Assemblies, NamesOfUnnamedElementsGiveTheLevel) {
   Row row;
   const auto zone = row.group("/ZONE", row.group("/SITE"));
   const auto pump = row.group("/P-101", zone), base = row.group("/P-101/BASE", pump);
@@ -28,7 +28,8 @@ TEST(Assemblies, NamesOfUnnamedElementsTellTheLevel) {
             row.group("SUBEQUIPMENT 1 of EQUIPMENT /T-101", tank))
       .cube("BOX 2 of EQUIPMENT /T-101", {}, tank);
   const auto outcome = row.run(kRule);
-  EXPECT_EQ(outcome.told[0], (Told{"/P-101/N1-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /T-101 HIT"}));
+  EXPECT_EQ(outcome.reported[0],
+            (ResultLines{"/P-101/N1-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /T-101 HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"parts of one", 3}}));
 }
 
@@ -38,9 +39,9 @@ TEST(Assemblies, APipeIsOneAssemblyForEachBranch) {
   const auto one = row.group("/100-B-1/B1", pipe), two = row.group("/100-B-1/B2", pipe);
   row.cube("ELBOW 1 of BRANCH /100-B-1/B1", {}, one)
       .cube("a", {}, one)  // a valve with a name
-      .cube("b", {}, two)  // nothing tells that this one is a branch, but its level
+      .cube("b", {}, two)  // nothing shows that this one is a branch, but its level
       .cube("c", {}, two);
-  EXPECT_EQ(row.hits(kRule), (Told{"a-b HIT"}));
+  EXPECT_EQ(row.hits(kRule), (ResultLines{"a-b HIT"}));
 }
 
 TEST(Assemblies, WhatWasExportedFromBelowASite) {
@@ -54,22 +55,22 @@ TEST(Assemblies, WhatWasExportedFromBelowASite) {
       .cube("b", {}, row.group("/F-1/B", row.group("/OTHER SITE")))
       .cube("c", {}, row.group("/F-1/C", row.group("/OTHER SITE")));
   EXPECT_EQ(row.hits(kRule),
-            (Told{"BOX 2 of EQUIPMENT /P-101-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /F-1 HIT",
-                  "a-b HIT", "b-c HIT"}));
+            (ResultLines{"BOX 2 of EQUIPMENT /P-101-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /F-1 HIT",
+                         "a-b HIT", "b-c HIT"}));
 }
 
-TEST(Assemblies, TheAttributeTypeTells) {
+TEST(Assemblies, TheAttributeTypeDecides) {
   Row row;
   const auto site = row.group("/SITE", model::Attributes{{"Type", "SITE"}});
   const auto deck = row.group("/DECK", site), rack = row.group("/RACK", site);
   EXPECT_EQ(row.cube("a", {}, deck).cube("b", {}, deck).cube("c", {}, rack).hits(kRule),
-            (Told{"a-b HIT", "b-c HIT"}))
+            (ResultLines{"a-b HIT", "b-c HIT"}))
       << "nothing is known below a site";
   Row typed;
   const auto skid = typed.group("/SKID", model::Attributes{{"Type", "'STRU'"}});
   EXPECT_EQ(
       typed.cube("a", {}, typed.group("1", skid)).cube("b", {}, typed.group("2", skid)).hits(kRule),
-      Told{});
+      ResultLines{});
 }
 
 TEST(Assemblies, AWordThatMeansADisciplineIsNoAssembly) {
@@ -78,7 +79,7 @@ TEST(Assemblies, AWordThatMeansADisciplineIsNoAssembly) {
   row.cube("a", {}, hvac).cube("b", {}, hvac).cube("c", {}, row.group("ducts", hvac));
   row.cube("BOX 1 of EQUIPMENT /P-1", {}, row.group("/P-2"));  // of another owner
   const auto outcome = row.run(kRule);
-  EXPECT_EQ(outcome.told[0].size(), 3U);
+  EXPECT_EQ(outcome.reported[0].size(), 3U);
   EXPECT_NE(warned(outcome.diagnostics, "rule-matches-nothing").find("BOX 1 of EQUIPMENT"),
             std::string::npos);
 }
@@ -92,8 +93,8 @@ TEST(Assemblies, AnEquipmentBelowItsLevelIsOneOfItsOwn) {
       .cube("BOX 1 of EQUIPMENT /P-1", {}, one)
       .cube("BOX 2 of EQUIPMENT /P-1", {}, one)
       .cube("BOX 1 of EQUIPMENT /P-2", {}, two);
-  EXPECT_EQ(row.hits(kRule), (Told{"BOX 1 of STRUCTURE /SKID-BOX 1 of EQUIPMENT /P-1 HIT",
-                                   "BOX 2 of EQUIPMENT /P-1-BOX 1 of EQUIPMENT /P-2 HIT"}));
+  EXPECT_EQ(row.hits(kRule), (ResultLines{"BOX 1 of STRUCTURE /SKID-BOX 1 of EQUIPMENT /P-1 HIT",
+                                          "BOX 2 of EQUIPMENT /P-1-BOX 1 of EQUIPMENT /P-2 HIT"}));
 }
 
 }  // namespace

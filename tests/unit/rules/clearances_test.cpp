@@ -39,7 +39,7 @@ TEST(Clearances, ALengthAnAttributeOrBothInEitherOrder) {
   }
 }
 
-TEST(Clearances, FaultsSayWhatToWrite) {
+TEST(Clearances, FaultsStateWhatToWrite) {
   for (const auto& [text, fault] : std::vector<std::pair<std::string, std::string>>{
            {"@", "'@' names no attribute"},
            {"@A B", "'@A B' names no attribute"},

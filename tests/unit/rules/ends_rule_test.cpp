@@ -21,8 +21,8 @@ using geometry::SnoutPrimitive;
 using geometry::Vec3d;
 using test::ClashModel;
 using test::exempted;
+using test::ResultLines;
 using test::run_rules;
-using test::Told;
 using test::warned;
 
 /// From a cylinder's frame to one whose axis runs along x or y.
@@ -34,26 +34,26 @@ ClashModel& pipe(ClashModel& m, const std::string& id, double from, double radiu
   return m.object(id).body(CylinderPrimitive{radius, 1000}, {{}, {0, 0, from + 500}});
 }
 
-Told with_ends(const ClashModel& m, const std::string& within = "5mm") {
+ResultLines with_ends(const ClashModel& m, const std::string& within = "5mm") {
   return run_rules(
              m.model,
              "[defaults]\nclearance = '10mm'\n[[connected]]\nname = 'joints'\nends_within = '" +
                  within + "'")
-      .told.at(0);
+      .reported.at(0);
 }
 
-Told without(const ClashModel& m) {
-  return run_rules(m.model, "[defaults]\nclearance = '10mm'").told.at(0);
+ResultLines without(const ClashModel& m) {
+  return run_rules(m.model, "[defaults]\nclearance = '10mm'").reported.at(0);
 }
 
 TEST(RulesEnds, AGapOfFourMillimetresIsAJointAndOneOfSixIsNot) {
   ClashModel four, six;
   pipe(pipe(four, "a", 0), "b", 1004);
   pipe(pipe(six, "a", 0), "b", 1006);
-  EXPECT_EQ(without(four), (Told{"a-b CLEARANCE_VIOLATION"}));
-  EXPECT_EQ(with_ends(four), Told{});
-  EXPECT_EQ(with_ends(six), (Told{"a-b CLEARANCE_VIOLATION"}));
-  EXPECT_EQ(with_ends(six, "6mm"), Told{});
+  EXPECT_EQ(without(four), (ResultLines{"a-b CLEARANCE_VIOLATION"}));
+  EXPECT_EQ(with_ends(four), ResultLines{});
+  EXPECT_EQ(with_ends(six), (ResultLines{"a-b CLEARANCE_VIOLATION"}));
+  EXPECT_EQ(with_ends(six, "6mm"), ResultLines{});
   const auto outcome = run_rules(
       four.model, "[defaults]\nclearance = '10mm'\n[[connected]]\nname = 'x'\nends_within = '5mm'");
   EXPECT_EQ(exempted(outcome.reports.at(0)), (test::Counts{{"x", 1}}));
@@ -64,9 +64,9 @@ TEST(RulesEnds, APipeThatReachesIntoTheNextByLessIsAJoint) {
   ClashModel little, much;
   pipe(pipe(little, "a", 0), "b", 996);
   pipe(pipe(much, "a", 0), "b", 994);
-  EXPECT_EQ(without(little), (Told{"a-b HIT"}));
-  EXPECT_EQ(with_ends(little), Told{});
-  EXPECT_EQ(with_ends(much), (Told{"a-b HIT"}));
+  EXPECT_EQ(without(little), (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(with_ends(little), ResultLines{});
+  EXPECT_EQ(with_ends(much), (ResultLines{"a-b HIT"}));
 }
 
 TEST(RulesEnds, AnElbowAndItsTwoPipes) {
@@ -74,8 +74,8 @@ TEST(RulesEnds, AnElbowAndItsTwoPipes) {
   m.object("elbow").body(CircularTorusPrimitive{150, 50, std::numbers::pi / 2});
   m.object("first").body(CylinderPrimitive{50, 1000}, {kAlongY, {150, -498, 0}});
   m.object("second").body(CylinderPrimitive{50, 1000}, {kAlongX, {-498, 150, 0}});
-  EXPECT_EQ(without(m), (Told{"elbow-first HIT", "elbow-second HIT"}));
-  EXPECT_EQ(with_ends(m), Told{});
+  EXPECT_EQ(without(m), (ResultLines{"elbow-first HIT", "elbow-second HIT"}));
+  EXPECT_EQ(with_ends(m), ResultLines{});
 }
 
 TEST(RulesEnds, AReducerJoinsUnlikeDiameters) {
@@ -83,8 +83,8 @@ TEST(RulesEnds, AReducerJoinsUnlikeDiameters) {
   pipe(m, "wide", 0);
   m.object("reducer").body(SnoutPrimitive{50, 25, 200, 25, 0}, {{}, {12.5, 0, 1098}});
   m.object("narrow").body(CylinderPrimitive{25, 1000}, {{}, {25, 0, 1696}});
-  EXPECT_EQ(without(m), (Told{"wide-reducer HIT", "reducer-narrow HIT"}));
-  EXPECT_EQ(with_ends(m), Told{});
+  EXPECT_EQ(without(m), (ResultLines{"wide-reducer HIT", "reducer-narrow HIT"}));
+  EXPECT_EQ(with_ends(m), ResultLines{});
 }
 
 /// The end of a branch in the middle of a run, on its axis and in its wall.
@@ -93,7 +93,7 @@ TEST(RulesEnds, AnEndInTheMiddleOfAnotherStaysAClash) {
     ClashModel m;
     pipe(m, "run", 0);
     m.object("branch").body(CylinderPrimitive{20, 1000}, {kAlongX, {from + 500, 0, 500}});
-    EXPECT_EQ(with_ends(m, "50mm"), (Told{"run-branch HIT"})) << from;
+    EXPECT_EQ(with_ends(m, "50mm"), (ResultLines{"run-branch HIT"})) << from;
   }
   // In the middle of a plate, whose ends are its short edges, and of a wall that is a mesh.
   ClashModel walls;
@@ -101,14 +101,14 @@ TEST(RulesEnds, AnEndInTheMiddleOfAnotherStaysAClash) {
   walls.box("wall", {-500, 2000, -5}, {500, 3000, 5});
   pipe(walls, "post", 3);
   walls.object("other").body(CylinderPrimitive{50, 1000}, {{}, {0, 2500, 503}});
-  EXPECT_EQ(with_ends(walls), (Told{"plate-post HIT", "wall-other HIT"}));
+  EXPECT_EQ(with_ends(walls), (ResultLines{"plate-post HIT", "wall-other HIT"}));
 }
 
 TEST(RulesEnds, PipesSideBySideAndCopiesStayClashes) {
   ClashModel m;
   pipe(pipe(m, "a", 0), "a2", 0);
   m.object("b").body(CylinderPrimitive{50, 1000}, {{}, {90, 0, 500}});
-  EXPECT_EQ(with_ends(m), (Told{"a-a2 HIT", "a-b HIT", "a2-b HIT"}));
+  EXPECT_EQ(with_ends(m), (ResultLines{"a-a2 HIT", "a-b HIT", "a2-b HIT"}));
 }
 
 /// A round body along z, by its radius, from a height to another.
@@ -137,7 +137,7 @@ TEST(RulesEnds, ShortBodiesInOnePlaceStayClashes) {
     ClashModel m;
     round(m, "a", c.radius, c.from, c.to);
     round(m, "b", c.other_radius, c.other_from, c.other_to, c.x);
-    EXPECT_EQ(with_ends(m, c.within), (Told{"a-b HIT"})) << c.to << ' ' << c.other_to;
+    EXPECT_EQ(with_ends(m, c.within), (ResultLines{"a-b HIT"})) << c.to << ' ' << c.other_to;
   }
 }
 
@@ -145,7 +145,7 @@ TEST(RulesEnds, AMirroredCopyInOnePlaceStaysAClash) {
   ClashModel m;
   m.object("a").body(test::cylinder_mesh(50, 500, 2, 16));
   m.object("b").again({{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, -1}}}, {0, 0, 500}});
-  EXPECT_EQ(with_ends(m, "1m"), (Told{"a-b HIT"}));
+  EXPECT_EQ(with_ends(m, "1m"), (ResultLines{"a-b HIT"}));
 }
 
 /// A valve of two bodies end to end, and its copy: their seams coincide.
@@ -157,7 +157,7 @@ TEST(RulesEnds, ACopyOfAnObjectOfSeveralBodiesStaysAClash) {
     m.body(CylinderPrimitive{60, 0}, {{}, {0, 0, 20}});
   }
   round(m, "pipe", 25, 119, 500);
-  EXPECT_EQ(with_ends(m), (Told{"a-b HIT"}));
+  EXPECT_EQ(with_ends(m), (ResultLines{"a-b HIT"}));
 }
 
 /// A gasket that is part of each of two ducts, and a coupling that both are put into halfway.
@@ -165,12 +165,12 @@ TEST(RulesEnds, RingsAndCouplingsAtAJointLeaveItOne) {
   ClashModel rings;
   round(rings, "a", 50, 0, 500).body(CylinderPrimitive{52, 3}, {{}, {0, 0, 501.5}});
   round(rings, "b", 50, 500, 1000).body(CylinderPrimitive{52, 3}, {{}, {0, 0, 498.5}});
-  EXPECT_EQ(without(rings), (Told{"a-b HIT"}));
-  EXPECT_EQ(with_ends(rings), Told{});
+  EXPECT_EQ(without(rings), (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(with_ends(rings), ResultLines{});
   ClashModel coupled;
   round(round(coupled, "a", 50, 0, 500), "b", 50, 500, 1000);
   round(coupled, "coupling", 55, 496, 504);
-  EXPECT_EQ(with_ends(coupled), Told{});
+  EXPECT_EQ(with_ends(coupled), ResultLines{});
 }
 
 TEST(RulesEnds, FacetedPipesJoinByTheirCaps) {
@@ -179,8 +179,8 @@ TEST(RulesEnds, FacetedPipesJoinByTheirCaps) {
   m.object("b").again({{}, {0, 0, 998}});
   pipe(m, "c", 1996);
   m.object("branch").body(test::cylinder_mesh(20, 500, 2, 16), {kAlongX, {10, 0, 500}});
-  EXPECT_EQ(without(m), (Told{"a-b HIT", "a-branch HIT", "b-c HIT"}));
-  EXPECT_EQ(with_ends(m), (Told{"a-branch HIT"}));
+  EXPECT_EQ(without(m), (ResultLines{"a-b HIT", "a-branch HIT", "b-c HIT"}));
+  EXPECT_EQ(with_ends(m), (ResultLines{"a-branch HIT"}));
 }
 
 TEST(RulesEnds, OnlyAmongWhatIsSelected) {
@@ -189,10 +189,10 @@ TEST(RulesEnds, OnlyAmongWhatIsSelected) {
   const auto among = [&](const std::string& selection) {
     return run_rules(m.model, "[[connected]]\nname = 'x'\nends_within = '5mm'\namong = \"" +
                                   selection + "\"")
-        .told.at(0);
+        .reported.at(0);
   };
-  EXPECT_EQ(among("a or b"), (Told{"b-c HIT"}));
-  EXPECT_EQ(among("a or c"), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(among("a or b"), (ResultLines{"b-c HIT"}));
+  EXPECT_EQ(among("a or c"), (ResultLines{"a-b HIT", "b-c HIT"}));
 }
 
 TEST(RulesEnds, ARuleThatJoinsNothingIsNamed) {
@@ -218,10 +218,10 @@ TEST(RulesEnds, FaultsNamePlaceCauseAndMend) {
       {"ends_within = '5mm'\nby = 'node'", "write two tables, each with a name"},
       {"", "or ends_within = \"5mm\""},
   };
-  for (const auto& [key, said] : faults) {
+  for (const auto& [key, stated] : faults) {
     const auto rules = Rules::parse("[[connected]]\nname = 'x'\n" + key + "\n", "r.toml");
     ASSERT_FALSE(rules) << key;
-    EXPECT_NE(rules.error().text().find(said), std::string::npos) << rules.error().text();
+    EXPECT_NE(rules.error().text().find(stated), std::string::npos) << rules.error().text();
   }
 }
 

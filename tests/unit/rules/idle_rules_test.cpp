@@ -10,8 +10,8 @@ namespace strake::rules {
 namespace {
 
 using test::expect_lines;
+using test::ResultLines;
 using test::Row;
-using test::Told;
 using test::warned;
 
 // Rules that match objects, but are of no use for any pair of them.
@@ -154,7 +154,7 @@ a = "b"
 b = "c"
 max_depth = "5mm"
 )toml");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT by all", "b-c HIT by all"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT by all", "b-c HIT by all"}));
   EXPECT_EQ(warned(outcome.diagnostics, "rule-shadowed"),
             "r.toml, line 11: [[allowed]] 'some': it does nothing: what it concerns is allowed by "
             "earlier rules, as 'all'\n");

@@ -13,13 +13,13 @@ namespace {
 using test::Counts;
 using test::exempted;
 using test::expect_lines;
+using test::ResultLines;
 using test::Row;
-using test::Told;
 using test::warned;
 
 /// "hard-soft" for each result: the levels of its two sides.
-Told levels(const clash::Report& report) {
-  Told all;
+ResultLines levels(const clash::Report& report) {
+  ResultLines all;
   for (const clash::Pair& p : report.pairs)
     all.push_back(std::string(name(p.level_a)) + "-" + std::string(name(p.level_b)));
   return all;
@@ -30,12 +30,12 @@ Row plain_row() { return Row().cube("a").cube("b").cube("c").cube("d").cube("e")
 TEST(Levels, InsulationBySelection) {
   const Row row = plain_row();
   auto outcome = row.run("[insulation]\nselect = 'b or c'");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT", "c-d HIT", "d-e HIT"}));
-  EXPECT_EQ(levels(outcome.reports[0]),
-            (Told{"hard-insulation", "insulation-insulation", "insulation-hard", "hard-hard"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT", "d-e HIT"}));
+  EXPECT_EQ(levels(outcome.reports[0]), (ResultLines{"hard-insulation", "insulation-insulation",
+                                                     "insulation-hard", "hard-hard"}));
   EXPECT_TRUE(outcome.diagnostics.kept().empty());
   outcome = row.run("[insulation]\nselect = 'b or c'\nagainst_insulation = false");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "c-d HIT", "d-e HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "c-d HIT", "d-e HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]),
             (Counts{{"no obstruction", 0}, {"insulation against insulation", 1}}));
 }
@@ -44,8 +44,8 @@ TEST(Levels, ObstructionBySelectionWithoutAnAttribute) {
   const auto outcome = plain_row().run(
       "[obstruction]\nsoft_against_soft = false\nsoft = 'b or c'\nnone = 'e'\n[insulation]\n"
       "select = 'd'\nagainst_soft = false");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"}));
-  EXPECT_EQ(levels(outcome.reports[0]), (Told{"hard-soft"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(levels(outcome.reports[0]), (ResultLines{"hard-soft"}));
   EXPECT_EQ(
       exempted(outcome.reports[0]),
       (Counts{{"no obstruction", 1}, {"soft against soft", 1}, {"insulation against soft", 1}}));
@@ -58,10 +58,10 @@ TEST(Levels, ASelectionGoesBeforeTheAttributeAndHardBeforeNoneBeforeSoft) {
                       .cube("b", {{"OBST", "0"}})
                       .cube("c", {{"OBST", "1"}})
                       .cube("d", {{"OBST", "2"}});
-  EXPECT_EQ(row.hits("[obstruction]"), (Told{"c-d HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]"), (ResultLines{"c-d HIT"}));
   const auto outcome = row.run("[obstruction]\nhard = 'a or d'\nnone = 'c or d'\nsoft = '*'");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"}));
-  EXPECT_EQ(levels(outcome.reports[0]), (Told{"hard-soft"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(levels(outcome.reports[0]), (ResultLines{"hard-soft"}));
 }
 
 TEST(Levels, WhatIsInsulationIsThatWhateverItsObstruction) {
@@ -69,7 +69,7 @@ TEST(Levels, WhatIsInsulationIsThatWhateverItsObstruction) {
                            .cube("a", {{"OBST", "0"}})
                            .cube("b")
                            .run("[obstruction]\nnone = 'b'\n[insulation]\nselect = '*'");
-  EXPECT_EQ(levels(outcome.reports[0]), (Told{"insulation-insulation"}));
+  EXPECT_EQ(levels(outcome.reports[0]), (ResultLines{"insulation-insulation"}));
   expect_lines(warned(outcome.diagnostics, "rule-shadowed"),
                {"r.toml, line 2: [obstruction], none: every object that it picks is one of "
                 "'[insulation] select'\n"});

@@ -330,7 +330,7 @@ TEST(RulesFile, TheSceneIsAsFineAsTheFinestTest) {
   EXPECT_TRUE(Rules::parse("[obstruction]", "r").value().scene_options().obstruction);
 }
 
-/// A small file must not ask for a large result: a cell for each two disciplines, and the name of a
+/// A small file must not request a large result: a cell for each two disciplines, and the name of a
 /// rule with every pair.
 TEST(RulesFile, WhatWouldFillTheDiskIsRefused) {
   const auto disciplines = [](int count) {
@@ -341,10 +341,10 @@ TEST(RulesFile, WhatWouldFillTheDiskIsRefused) {
   };
   EXPECT_EQ(fault_of(disciplines(300)), "");
   for (const int count : {301, 3000}) {
-    const std::string told = fault_of(disciplines(count));
-    EXPECT_NE(told.find("line 901"), std::string::npos) << told;
-    EXPECT_NE(told.find("more than 300 disciplines"), std::string::npos) << told;
-    EXPECT_NE(told.find("join some"), std::string::npos) << told;
+    const std::string reported = fault_of(disciplines(count));
+    EXPECT_NE(reported.find("line 901"), std::string::npos) << reported;
+    EXPECT_NE(reported.find("more than 300 disciplines"), std::string::npos) << reported;
+    EXPECT_NE(reported.find("join some"), std::string::npos) << reported;
   }
   for (const std::string table : {"[[test]]", "[[exempt]]\na = '*'\nb = '*'",
                                   "[[allowed]]\na = '*'\nb = '*'\nmax_depth = '1mm'"}) {

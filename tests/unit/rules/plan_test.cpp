@@ -20,8 +20,8 @@ using test::ClashModel;
 using test::Counts;
 using test::exempted;
 using test::expect_lines;
+using test::ResultLines;
 using test::Row;
-using test::Told;
 using test::warned;
 
 TEST(RulesPlan, SeveralTestsInTheOrderOfTheFile) {
@@ -41,19 +41,20 @@ name = "shallow"
 touch_overlap = "10.5mm"
 thickness_cap = false
 )toml");
-  ASSERT_EQ(outcome.told.size(), 2U);
+  ASSERT_EQ(outcome.reported.size(), 2U);
   EXPECT_EQ(outcome.reports[0].name, "second to none");
   EXPECT_EQ(outcome.reports[0].set_a, "set(first)");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"}));
-  EXPECT_EQ(outcome.told[1], (Told{"a-b CONTACT", "b-c CONTACT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(outcome.reported[1], (ResultLines{"a-b CONTACT", "b-c CONTACT"}));
   EXPECT_EQ(outcome.reports[1].options.tolerances.touch_overlap_mm, 10.5);
   EXPECT_TRUE(outcome.diagnostics.kept().empty());
 }
 
 TEST(RulesPlan, OneSetAloneIsAgainstEverything) {
   const Row row = Row().cube("a").cube("b").cube("c");
-  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\na = \"a or b\""), (Told{"a-b HIT", "b-c HIT"}));
-  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\nb = \"a\""), (Told{"a-b HIT"}));
+  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\na = \"a or b\""),
+            (ResultLines{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\nb = \"a\""), (ResultLines{"a-b HIT"}));
 }
 
 TEST(RulesPlan, UnitGroupsByAttributeAndByRule) {
@@ -66,7 +67,8 @@ TEST(RulesPlan, UnitGroupsByAttributeAndByRule) {
                       .cube("f")
                       .cube("g", {{"UNIT", "7"}});
   auto outcome = row.run("[unit_groups]\nattribute = \"UNIT\"");
-  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT", "c-d HIT", "d-e HIT", "e-f HIT", "f-g HIT"}))
+  EXPECT_EQ(outcome.reported[0],
+            (ResultLines{"b-c HIT", "c-d HIT", "d-e HIT", "e-f HIT", "f-g HIT"}))
       << "a negative number is no unit";
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"unit groups", 1}}));
   EXPECT_EQ(warned(outcome.diagnostics, "unit-not-a-number"),
@@ -82,7 +84,8 @@ select = "a"
 number = 7
 select = "name ~ '^[acdf]$'"
 )toml");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "d-e HIT", "e-f HIT"})) << "the first rule decides";
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "d-e HIT", "e-f HIT"}))
+      << "the first rule decides";
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"skids", 3}}));
 }
 
@@ -101,16 +104,18 @@ TEST(RulesPlan, SameAssemblyByLevel) {
   const auto with = [&](const std::string& keys) {
     return row.hits("[[same_assembly]]\nname = \"one\"\n" + keys);
   };
-  EXPECT_EQ(with("level = 2"), (Told{"pump-d HIT", "e-f HIT"})) << "a group that is an object too";
-  EXPECT_EQ(with("level = 1"), (Told{"e-f HIT"}));
-  EXPECT_EQ(with("level = 3"), (Told{"a-b HIT", "b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
-  EXPECT_EQ(with("level = \"parent\""), (Told{"b-pump HIT", "pump-d HIT", "e-f HIT"}));
-  EXPECT_EQ(with("group = \"p*p\""), (Told{"pump-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(with("level = 2"), (ResultLines{"pump-d HIT", "e-f HIT"}))
+      << "a group that is an object too";
+  EXPECT_EQ(with("level = 1"), (ResultLines{"e-f HIT"}));
+  EXPECT_EQ(with("level = 3"),
+            (ResultLines{"a-b HIT", "b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(with("level = \"parent\""), (ResultLines{"b-pump HIT", "pump-d HIT", "e-f HIT"}));
+  EXPECT_EQ(with("group = \"p*p\""), (ResultLines{"pump-d HIT", "d-e HIT", "e-f HIT"}));
   EXPECT_EQ(with("group = \"fan\"\nacross_files = true"),
-            (Told{"a-b HIT", "b-pump HIT", "pump-d HIT", "e-f HIT"}))
+            (ResultLines{"a-b HIT", "b-pump HIT", "pump-d HIT", "e-f HIT"}))
       << "site/fan is not other/fan";
   EXPECT_EQ(with("level = 1\namong = \"a or b or d\""),
-            (Told{"b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
+            (ResultLines{"b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
 }
 
 TEST(RulesPlan, SameAssemblyAcrossFiles) {
@@ -118,8 +123,8 @@ TEST(RulesPlan, SameAssemblyAcrossFiles) {
   const auto one = row.group("skid"), two = row.group("skid");
   row.cube("a", {}, one, 0).cube("b", {}, two, 1);
   const std::string rule = "[[same_assembly]]\nname = \"skid\"\nlevel = 1\n";
-  EXPECT_EQ(row.hits(rule), (Told{"a-b HIT"}));
-  EXPECT_EQ(row.hits(rule + "across_files = true"), Told{});
+  EXPECT_EQ(row.hits(rule), (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(row.hits(rule + "across_files = true"), ResultLines{});
 }
 
 TEST(RulesPlan, ConnectedByThePartnersNameOrId) {
@@ -132,7 +137,7 @@ TEST(RulesPlan, ConnectedByThePartnersNameOrId) {
                       .cube("f", {{"TREF", "Nulref"}});
   const std::string rule = "[[connected]]\nname = \"joints\"\nattributes = [\"HREF\", \"TREF\"]\n";
   auto outcome = row.run(rule);
-  EXPECT_EQ(outcome.told[0], (Told{"c-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"c-d HIT", "d-e HIT", "e-f HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"joints", 2}}));
   outcome = row.run("[[connected]]\nname = \"c\"\nattributes = \"CREF\"\nseparator = \",\"");
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"c", 1}}));
@@ -145,8 +150,8 @@ TEST(RulesPlan, ConnectedByACommonNode) {
                       .cube("c", {{"END1", "n3"}})
                       .cube("d", {{"END2", "d"}});
   const std::string rule = "[[connected]]\nname = \"x\"\nattributes = [\"END1\", \"END2\"]\n";
-  EXPECT_EQ(row.hits(rule + "by = \"node\""), (Told{"b-c HIT", "c-d HIT"}));
-  EXPECT_EQ(row.hits(rule), (Told{"a-b HIT", "b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits(rule + "by = \"node\""), (ResultLines{"b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits(rule), (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT"}));
 }
 
 TEST(RulesPlan, ConnectedToAGroupOfThePartner) {
@@ -154,8 +159,8 @@ TEST(RulesPlan, ConnectedToAGroupOfThePartner) {
   const auto branch = row.group("/100-B-1");
   row.cube("nozzle", {{"CREF", "/100-B-1"}}).cube("elbow", {}, branch).cube("tee", {}, branch);
   const std::string rule = "[[connected]]\nname = \"x\"\nattributes = [\"CREF\"]\n";
-  EXPECT_EQ(row.hits(rule), (Told{"nozzle-elbow HIT", "elbow-tee HIT"}));
-  EXPECT_EQ(row.hits(rule + "groups = true"), (Told{"elbow-tee HIT"}));
+  EXPECT_EQ(row.hits(rule), (ResultLines{"nozzle-elbow HIT", "elbow-tee HIT"}));
+  EXPECT_EQ(row.hits(rule + "groups = true"), (ResultLines{"elbow-tee HIT"}));
 }
 
 TEST(RulesPlan, WhatABranchIsConnectedToItsEndsAre) {
@@ -167,9 +172,10 @@ TEST(RulesPlan, WhatABranchIsConnectedToItsEndsAre) {
   row.cube("pump");
   const std::string rule =
       "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\ngroups = true\n";
-  EXPECT_EQ(row.hits(rule),
-            (Told{"flange-elbow HIT", "elbow-strainer HIT", "strainer-tee HIT", "tee-cap HIT"}));
-  EXPECT_EQ(row.hits(rule + "inherited = \"all\""), (Told{"flange-elbow HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule), (ResultLines{"flange-elbow HIT", "elbow-strainer HIT",
+                                         "strainer-tee HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule + "inherited = \"all\""),
+            (ResultLines{"flange-elbow HIT", "tee-cap HIT"}));
   EXPECT_EQ(row.hits(rule + "inherited = \"none\"").size(), 6U);
   EXPECT_EQ(row.hits("[[connected]]\nname = \"x\"\nattributes = \"TREF\"").size(), 5U);
 }
@@ -183,24 +189,25 @@ TEST(RulesPlan, TheHeadOfABranchIsItsFirstObjectAndTheTailItsLast) {
   };
   const Row right = between("pump", "tank"), wrong = between("tank", "pump");
   const std::string named = "[[connected]]\nname = \"x\"\nhead = \"HREF\"\ntail = [\"TREF\"]\n";
-  EXPECT_EQ(right.hits(named), (Told{"flange-elbow HIT"}));
+  EXPECT_EQ(right.hits(named), (ResultLines{"flange-elbow HIT"}));
   EXPECT_EQ(wrong.hits(named).size(), 3U) << "the tail runs into what the head is joined to";
   const std::string either = "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\n";
-  EXPECT_EQ(right.hits(either), (Told{"flange-elbow HIT"}));
-  EXPECT_EQ(wrong.hits(either), (Told{"flange-elbow HIT"})) << "which end is which is not said";
+  EXPECT_EQ(right.hits(either), (ResultLines{"flange-elbow HIT"}));
+  EXPECT_EQ(wrong.hits(either), (ResultLines{"flange-elbow HIT"}))
+      << "which end is which is not said";
   Row row_of_one;
   const auto branch = row_of_one.group("/100-B-2", {{"HREF", "pump"}, {"TREF", "tank"}});
   row_of_one.cube("pump").cube("spool", {}, branch).cube("tank");
-  EXPECT_EQ(row_of_one.hits(named), Told{}) << "one object is both ends";
+  EXPECT_EQ(row_of_one.hits(named), ResultLines{}) << "one object is both ends";
 }
 
 TEST(RulesPlan, AttributesOfGroupsCountForTheObjectsBelow) {
   Row row;
   const auto skid = row.group("skid", {{"UNIT", "7"}, {"SYSTEM", "oil"}, {"OBST", "0"}});
   row.cube("a", {}, skid).cube("b", {{"UNIT", "8"}}, skid).cube("c", {{"OBST", "2"}}, skid);
-  EXPECT_EQ(row.hits("[unit_groups]\nattribute = \"UNIT\""), (Told{"a-b HIT", "b-c HIT"}));
-  EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"SYSTEM\""), Told{});
-  EXPECT_EQ(row.hits("[obstruction]\n[[test]]\nname = \"t\"\na = \"@OBST = 2\""), Told{});
+  EXPECT_EQ(row.hits("[unit_groups]\nattribute = \"UNIT\""), (ResultLines{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"SYSTEM\""), ResultLines{});
+  EXPECT_EQ(row.hits("[obstruction]\n[[test]]\nname = \"t\"\na = \"@OBST = 2\""), ResultLines{});
 }
 
 TEST(RulesPlan, SameAttributeSameFileAndPairsOfSets) {
@@ -210,12 +217,12 @@ TEST(RulesPlan, SameAttributeSameFileAndPairsOfSets) {
                       .cube("c", {{"SYSTEM", "none"}}, model::GroupId::none, 1)
                       .cube("d", {{"SYSTEM", "none"}}, model::GroupId::none, 0);
   EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"SYSTEM\""),
-            (Told{"b-c HIT", "c-d HIT"}));
+            (ResultLines{"b-c HIT", "c-d HIT"}));
   const auto outcome = row.run("[defaults]\nwithin_file = false");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "c-d HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "c-d HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"within one file", 1}}));
   EXPECT_EQ(row.hits("[[exempt]]\nname = \"x\"\na = \"file = t.obj\"\nb = \"file = u.obj\""),
-            (Told{"b-c HIT"}));
+            (ResultLines{"b-c HIT"}));
 }
 
 TEST(RulesPlan, ATestMayDoWithoutARule) {
@@ -236,9 +243,9 @@ without = ["ab", "bc"]
 [[test]]
 name = "lenient"
 )toml");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), Counts{});
-  EXPECT_EQ(outcome.told[1], (Told{"b-c HIT by bc"}));
+  EXPECT_EQ(outcome.reported[1], (ResultLines{"b-c HIT by bc"}));
 }
 
 TEST(RulesPlan, ObstructionLevels) {
@@ -253,14 +260,14 @@ TEST(RulesPlan, ObstructionLevels) {
                       .category(model::Category::obstruction);
   EXPECT_EQ(row.hits("").size(), 5U) << "off unless asked for, and no obstruction volumes";
   auto outcome = row.run("[obstruction]");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT", "e-f HIT", "f-g HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c HIT", "e-f HIT", "f-g HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"no obstruction", 2}}));
   EXPECT_EQ(outcome.reports[0].pairs[3].level_b, clash::Level::soft);
   EXPECT_EQ(warned(outcome.diagnostics, "obstruction-not-known"),
             "e: the attribute 'OBST' is '5', not 0, 1 or 2; the object counts as hard\n");
   outcome = row.run(
       "[obstruction]\nsoft_against_soft = false\nvolumes = \"none\"\nsoft = \"f\"\nnone = \"a\"");
-  EXPECT_EQ(outcome.told[0], (Told{"e-f HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"e-f HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]),
             (Counts{{"no obstruction", 3}, {"soft against soft", 1}}));
   EXPECT_EQ(outcome.reports[0].pairs[0].level_b, clash::Level::soft);
@@ -272,9 +279,9 @@ TEST(RulesPlan, ObstructionLevelsOfTheFirstAttributeThatAnObjectHas) {
                       .cube("b", {{"OBST", "2"}, {"Obstruction", "0"}})
                       .cube("c", {{"OBST", "unset"}, {"Obstruction", "1"}});
   const auto outcome = row.run("[obstruction]\nattribute = [\"OBST\", \"Obstruction\"]");
-  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"b-c HIT"}));
   EXPECT_EQ(outcome.reports[0].pairs[0].level_b, clash::Level::soft);
-  EXPECT_EQ(row.hits("[obstruction]"), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]"), (ResultLines{"a-b HIT", "b-c HIT"}));
 }
 
 TEST(RulesPlan, Insulation) {
@@ -286,12 +293,13 @@ TEST(RulesPlan, Insulation) {
                       .category(model::Category::insulation)
                       .cube("d")
                       .category(model::Category::obstruction);
-  EXPECT_EQ(row.hits(""), Told{});
-  EXPECT_EQ(row.hits("[insulation]"), (Told{"a-b HIT", "b-c HIT"}));
-  EXPECT_EQ(row.hits("[insulation]\nagainst_insulation = false"), (Told{"a-b HIT"}));
-  EXPECT_EQ(row.hits("[obstruction]\n[insulation]"), (Told{"a-b HIT", "b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits(""), ResultLines{});
+  EXPECT_EQ(row.hits("[insulation]"), (ResultLines{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[insulation]\nagainst_insulation = false"), (ResultLines{"a-b HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]\n[insulation]"),
+            (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT"}));
   EXPECT_EQ(row.hits("[obstruction]\n[insulation]\nagainst_soft = false"),
-            (Told{"a-b HIT", "b-c HIT"}));
+            (ResultLines{"a-b HIT", "b-c HIT"}));
 }
 
 TEST(RulesPlan, AllowedContacts) {
@@ -305,7 +313,7 @@ max_depth = "10.5mm"
 region = { min = ["-1m", "-1m", "-1m"], max = ["1m", "1m", "1m"] }
 cavity = [ { point = ["150mm", 0, 0], normal = [1, 0, 0] } ]
 )toml");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c HIT by seat"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c HIT by seat"}));
   EXPECT_EQ(outcome.reports[0].count_allowed, 1U);
   EXPECT_EQ(outcome.reports[0].counters.allowed_pairs, 2U);
 }
@@ -326,7 +334,8 @@ TEST(RulesPlan, DisciplinesTheFirstThatPicksAnObjectCounts) {
 [matrix.cells.pipes]
 hull = { touch_overlap = "10.5mm", thickness_cap = false }
 )toml");
-  EXPECT_EQ(outcome.told[0], (Told{"a-b HIT", "b-c CONTACT"})) << "d is of no discipline";
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c CONTACT"}))
+      << "d is of no discipline";
   EXPECT_EQ(outcome.reports[0].name, "matrix");
   EXPECT_EQ(outcome.reports[0].disciplines[0].objects, 2U);
   EXPECT_EQ(outcome.reports[0].disciplines[1].objects, 1U);
@@ -340,10 +349,10 @@ hull = { touch_overlap = "10.5mm", thickness_cap = false }
 TEST(RulesPlan, MissingCellsAreAsStated) {
   const Row row = Row().cube("a").cube("b").cube("c");
   const std::string cells = "[matrix.cells.hull]\npipes = \"checked\"\n";
-  EXPECT_EQ(row.hits(std::string(kDisciplines) + cells), (Told{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits(std::string(kDisciplines) + cells), (ResultLines{"a-b HIT", "b-c HIT"}));
   const auto outcome =
       row.run(std::string(kDisciplines) + "[matrix]\nmissing = \"not checked\"\n" + cells);
-  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT"}));
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"b-c HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"matrix", 1}}));
 }
 

@@ -12,8 +12,8 @@
 namespace strake::rules {
 namespace {
 
+using test::ResultLines;
 using test::Row;
-using test::Told;
 
 /// Cubes of a row overlap by 10 mm; allowing that much makes contacts of them.
 const std::string kContacts = "[defaults]\ntouch_overlap = \"11mm\"\nthickness_cap = false\n";
@@ -35,7 +35,7 @@ TEST(Profiles, AreRulesWithoutTestsAndTolerances) {
     const auto outcome = Row().cube("a").cube("b").run(profile.text);
     ASSERT_EQ(outcome.reports.size(), 1U);
     EXPECT_EQ(outcome.reports[0].name, "");
-    EXPECT_EQ(outcome.told[0], (Told{"a-b HIT"})) << "nothing tells what these are";
+    EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT"})) << "nothing tells what these are";
   }
   EXPECT_EQ(find_profile("none"), nullptr);
 }
@@ -54,7 +54,8 @@ TEST(Profiles, ANozzleMeetsItsBranch) {
       .cube("/P-1/N1", {{"Cref", "/B1"}}, pump)
       .cube("BOX 1 of EQUIPMENT /P-1", {}, pump)
       .cube("TUBE 1 of BRANCH /B1", {}, branch);
-  EXPECT_EQ(row.hits(text_of("plant")), (Told{"BOX 1 of EQUIPMENT /P-1-TUBE 1 of BRANCH /B1 HIT"}));
+  EXPECT_EQ(row.hits(text_of("plant")),
+            (ResultLines{"BOX 1 of EQUIPMENT /P-1-TUBE 1 of BRANCH /B1 HIT"}));
 }
 
 TEST(Profiles, WeldsOfAShipAreAllowedWhileTheyAreNoHit) {
@@ -69,12 +70,12 @@ TEST(Profiles, WeldsOfAShipAreAllowedWhileTheyAreNoHit) {
       .cube("wall", {}, cabin)
       .cube("bed", {}, cabin)
       .cube("wall 2", {}, other);
-  EXPECT_EQ(row.hits(text_of("ship")), (Told{"deck-beam HIT", "beam-steel pipe HIT",
-                                             "steel pipe-wall HIT", "bed-wall 2 HIT"}));
-  EXPECT_EQ(
-      row.hits(kContacts + text_of("ship")),
-      (Told{"deck-beam CONTACT by welds of steel", "beam-steel pipe CONTACT",
-            "steel pipe-wall CONTACT", "bed-wall 2 CONTACT by fitted parts of the accommodation"}));
+  EXPECT_EQ(row.hits(text_of("ship")), (ResultLines{"deck-beam HIT", "beam-steel pipe HIT",
+                                                    "steel pipe-wall HIT", "bed-wall 2 HIT"}));
+  EXPECT_EQ(row.hits(kContacts + text_of("ship")),
+            (ResultLines{"deck-beam CONTACT by welds of steel", "beam-steel pipe CONTACT",
+                         "steel pipe-wall CONTACT",
+                         "bed-wall 2 CONTACT by fitted parts of the accommodation"}));
 }
 
 TEST(Profiles, RoomsOfABuildingAreNotBuilt) {
@@ -85,9 +86,10 @@ TEST(Profiles, RoomsOfABuildingAreNotBuilt) {
                       .cube("IfcSlab/1")
                       .cube("duct", {{"ifcType", "IfcDuctSegment"}})
                       .cube("IfcOpeningElement/7");
-  EXPECT_EQ(row.hits(text), (Told{"wall-IfcSlab/1 HIT", "IfcSlab/1-duct HIT"}));
-  EXPECT_EQ(row.hits(kContacts + text),
-            (Told{"wall-IfcSlab/1 CONTACT by joints of the fabric", "IfcSlab/1-duct CONTACT"}));
+  EXPECT_EQ(row.hits(text), (ResultLines{"wall-IfcSlab/1 HIT", "IfcSlab/1-duct HIT"}));
+  EXPECT_EQ(
+      row.hits(kContacts + text),
+      (ResultLines{"wall-IfcSlab/1 CONTACT by joints of the fabric", "IfcSlab/1-duct CONTACT"}));
 }
 
 }  // namespace

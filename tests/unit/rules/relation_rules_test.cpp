@@ -18,8 +18,8 @@ namespace {
 
 using test::box_mesh;
 using test::ClashModel;
+using test::ResultLines;
 using test::run_rules;
-using test::Told;
 using test::warned;
 
 /// In reach of each other are: core, which lies in a block; bar, through a wall; twin, which is
@@ -39,11 +39,11 @@ ClashModel scene(bool core_first = true) {
 }
 
 /// The results that a rule between two selections with some keys does not allow.
-Told open_under(const ClashModel& m, const std::string& a, const std::string& b,
-                const std::string& keys) {
+ResultLines open_under(const ClashModel& m, const std::string& a, const std::string& b,
+                       const std::string& keys) {
   const auto outcome = run_rules(
       m.model, "[[allowed]]\nname = \"meant\"\na = \"" + a + "\"\nb = \"" + b + "\"\n" + keys);
-  Told open = outcome.told.at(0);
+  ResultLines open = outcome.reported.at(0);
   std::erase_if(open, [](const std::string& one) { return one.ends_with(" by meant"); });
   return open;
 }
@@ -55,30 +55,30 @@ TEST(RulesRelation, AResultIsAllowedOnlyIfItsRelationIsAmongThem) {
   };
   const std::string core = "core-block HIT", bar = "wall-bar HIT", twin = "twin-twin2 HIT",
                     post = "floor-post CONTACT";
-  EXPECT_EQ(with("['inside', 'through', 'duplicate', 'abut']"), Told{});
-  EXPECT_EQ(with("'inside'"), (Told{bar, twin, post}));
-  EXPECT_EQ(with("'through'"), (Told{core, twin, post}));
-  EXPECT_EQ(with("['duplicate']"), (Told{core, bar, post}));
-  EXPECT_EQ(with("['abut']"), (Told{core, bar, twin}));
-  EXPECT_EQ(with("['INTERFERE', 'abut_outside']"), (Told{core, twin}));
-  EXPECT_EQ(with("['cross', 'separate', 'ABUT_INSIDE']"), (Told{core, bar, twin, post}));
+  EXPECT_EQ(with("['inside', 'through', 'duplicate', 'abut']"), ResultLines{});
+  EXPECT_EQ(with("'inside'"), (ResultLines{bar, twin, post}));
+  EXPECT_EQ(with("'through'"), (ResultLines{core, twin, post}));
+  EXPECT_EQ(with("['duplicate']"), (ResultLines{core, bar, post}));
+  EXPECT_EQ(with("['abut']"), (ResultLines{core, bar, twin}));
+  EXPECT_EQ(with("['INTERFERE', 'abut_outside']"), (ResultLines{core, twin}));
+  EXPECT_EQ(with("['cross', 'separate', 'ABUT_INSIDE']"), (ResultLines{core, bar, twin, post}));
 }
 
 TEST(RulesRelation, InsideIsAboutTheRulesAAndB) {
   for (const bool core_first : {true, false}) {
     const ClashModel m = scene(core_first);
-    const Told hit{core_first ? "core-block HIT" : "block-core HIT"};
+    const ResultLines hit{core_first ? "core-block HIT" : "block-core HIT"};
     const auto open = [&](const char* a, const char* b, const std::string& word) {
-      Told all = open_under(m, a, b, "relation = '" + word + "'");
+      ResultLines all = open_under(m, a, b, "relation = '" + word + "'");
       std::erase_if(all, [&](const std::string& one) { return one != hit.front(); });
       return all;
     };
-    EXPECT_EQ(open("core", "block", "inside"), Told{}) << core_first;
+    EXPECT_EQ(open("core", "block", "inside"), ResultLines{}) << core_first;
     EXPECT_EQ(open("block", "core", "inside"), hit) << core_first;
-    EXPECT_EQ(open("block", "core", "b_in_a"), Told{}) << core_first;
-    EXPECT_EQ(open("core", "block", "A_IN_B"), Told{}) << core_first;
+    EXPECT_EQ(open("block", "core", "b_in_a"), ResultLines{}) << core_first;
+    EXPECT_EQ(open("core", "block", "A_IN_B"), ResultLines{}) << core_first;
     EXPECT_EQ(open("core", "block", "b_in_a"), hit) << core_first;
-    EXPECT_EQ(open("core or block", "block", "inside"), Told{}) << core_first;
+    EXPECT_EQ(open("core or block", "block", "inside"), ResultLines{}) << core_first;
   }
 }
 
@@ -90,12 +90,12 @@ TEST(RulesRelation, ADepthLimitsThemStill) {
 }
 
 /// One part of the bar lies in the block, another passes through it.
-TEST(RulesRelation, EachPairOfPartsIsJudgedByItself) {
+TEST(RulesRelation, EachPairOfPartsIsClassifiedByItself) {
   ClashModel m;
   m.box("bar", {40, 40, 40}, {60, 60, 60}).body(box_mesh({-50, 10, 10}, {150, 20, 20}));
   m.box("block", {0, 0, 0}, {100, 100, 100});
-  EXPECT_EQ(open_under(m, "bar", "block", "relation = 'inside'"), (Told{"bar-block HIT"}));
-  EXPECT_EQ(open_under(m, "bar", "block", "relation = ['inside', 'through']"), Told{});
+  EXPECT_EQ(open_under(m, "bar", "block", "relation = 'inside'"), (ResultLines{"bar-block HIT"}));
+  EXPECT_EQ(open_under(m, "bar", "block", "relation = ['inside', 'through']"), ResultLines{});
 }
 
 /// A cylinder as deep in a mesh as a touch may be: its sag leaves open whether it is a HIT.
@@ -114,7 +114,7 @@ TEST(RulesRelation, WhatIsUncertainIsNeitherAllowedNorLeftOut) {
   EXPECT_EQ(open_under(m, "*", "*", "relation = ['through', 'inside', 'abut', 'separate']").size(),
             1U);
   const auto tested = run_rules(m.model, "[[test]]\nname = 't'\nrelations = 'duplicate'");
-  EXPECT_EQ(tested.told.at(0), plain.told.at(0));
+  EXPECT_EQ(tested.reported.at(0), plain.reported.at(0));
   EXPECT_EQ(tested.reports.at(0).not_reported.by_relation.all(), 0U);
 }
 
@@ -139,10 +139,10 @@ relations = "inside"
 a = "block"
 b = "core"
 )toml");
-  ASSERT_EQ(outcome.told.size(), 3U);
-  EXPECT_EQ(outcome.told[0], (Told{"twin-twin2 HIT"}));
-  EXPECT_EQ(outcome.told[1], (Told{"core-block HIT", "wall-bar HIT"}));
-  EXPECT_EQ(outcome.told[2], Told{}) << "the block is in no core";
+  ASSERT_EQ(outcome.reported.size(), 3U);
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"twin-twin2 HIT"}));
+  EXPECT_EQ(outcome.reported[1], (ResultLines{"core-block HIT", "wall-bar HIT"}));
+  EXPECT_EQ(outcome.reported[2], ResultLines{}) << "the block is in no core";
   const clash::Report& twins = outcome.reports[0];
   EXPECT_EQ(twins.not_reported.by_relation.hit, 2U);
   EXPECT_EQ(twins.not_reported.by_relation.allowed, 1U);
@@ -161,14 +161,14 @@ TEST(RulesRelation, APairIsReportedForAnyOfItsParts) {
   ASSERT_EQ(found.size(), 1U);
   ASSERT_EQ(found[0].relation, clash::Relation::interfere);
   const auto tested = run_rules(m.model, "[[test]]\nname = 't'\nrelations = 'duplicate'");
-  EXPECT_EQ(tested.told.at(0), (Told{"a-b HIT"}));
+  EXPECT_EQ(tested.reported.at(0), (ResultLines{"a-b HIT"}));
 }
 
 /// The bar and the wall have 10 x 10 x 20 mm in common: two cubic centimetres.
 TEST(RulesVolume, AResultIsAllowedUpToAVolume) {
   const ClashModel m = scene();
   const auto is_open = [&](const std::string& volume) {
-    const Told open = open_under(m, "bar", "wall", "max_volume = " + volume);
+    const ResultLines open = open_under(m, "bar", "wall", "max_volume = " + volume);
     return std::ranges::find(open, "wall-bar HIT") != open.end();
   };
   EXPECT_FALSE(is_open("'2cm3'"));
@@ -184,13 +184,15 @@ TEST(RulesVolume, ATestCountsSmallerHits) {
   const auto run = [&](const char* volume) {
     return run_rules(m.model, std::string("[[test]]\nname = 't'\nmin_volume = '") + volume + "'");
   };
-  EXPECT_EQ(run("2cm3").told.at(0).size(), 4U);
+  EXPECT_EQ(run("2cm3").reported.at(0).size(), 4U);
   const auto larger = run("2.001cm3");
-  EXPECT_EQ(larger.told.at(0), (Told{"core-block HIT", "twin-twin2 HIT", "floor-post CONTACT"}));
+  EXPECT_EQ(larger.reported.at(0),
+            (ResultLines{"core-block HIT", "twin-twin2 HIT", "floor-post CONTACT"}));
   EXPECT_EQ(larger.reports.at(0).not_reported.by_volume.hit, 1U);
   EXPECT_EQ(larger.reports.at(0).not_reported.by_volume.all(), 1U);
-  EXPECT_EQ(run("1l").told.at(0), (Told{"twin-twin2 HIT", "floor-post CONTACT"}));
-  EXPECT_EQ(run("1.001l").told.at(0), (Told{"floor-post CONTACT"})) << "contacts are no hits";
+  EXPECT_EQ(run("1l").reported.at(0), (ResultLines{"twin-twin2 HIT", "floor-post CONTACT"}));
+  EXPECT_EQ(run("1.001l").reported.at(0), (ResultLines{"floor-post CONTACT"}))
+      << "contacts are no hits";
 }
 
 /// What a test reports does not change with what a rule allows of it.
@@ -200,8 +202,8 @@ TEST(RulesRelation, WhatIsAllowedIsNotReportedEither) {
   for (const std::string key : {"min_volume = '2.001cm3'", "relations = ['inside', 'duplicate']"}) {
     const auto outcome = run_rules(scene().model, "[[test]]\nname = 't'\n" + key + allowed);
     const clash::Report& report = outcome.reports.at(0);
-    const auto& told = outcome.told.at(0);
-    EXPECT_EQ(std::ranges::find(told, "wall-bar HIT by x"), told.end()) << key;
+    const auto& reported = outcome.reported.at(0);
+    EXPECT_EQ(std::ranges::find(reported, "wall-bar HIT by x"), reported.end()) << key;
     EXPECT_EQ(report.count_allowed, 0U) << key;
     EXPECT_EQ(report.not_reported.by_volume.allowed + report.not_reported.by_relation.allowed, 1U);
   }
@@ -239,7 +241,8 @@ TEST(RulesVolume, SheetsAreNotLeftOut) {
   m.object("sheet").body(sheet);
   m.box("bar", {-5, -5, -100}, {5, 5, 100});
   EXPECT_EQ(open_under(m, "*", "*", "max_volume = '1m3'").size(), 1U);
-  EXPECT_EQ(run_rules(m.model, "[[test]]\nname = 't'\nmin_volume = '1m3'").told.at(0).size(), 1U);
+  EXPECT_EQ(run_rules(m.model, "[[test]]\nname = 't'\nmin_volume = '1m3'").reported.at(0).size(),
+            1U);
 }
 
 TEST(RulesVolume, VolumesAreMeasuredOnlyWhereARuleConcernsThePair) {
@@ -263,8 +266,8 @@ TEST(RulesVolume, TheSameForAnyTeam) {
       "[[allowed]]\nname = 'x'\na = 'core'\nb = '*'\nmax_volume = '9cm3'";
   parallel::Team team(3);
   const auto one = run_rules(m.model, text), three = run_rules(m.model, text, {.team = &team});
-  EXPECT_EQ(one.told, three.told);
-  EXPECT_EQ(one.told.at(0), (Told{"core-block HIT by x"}));
+  EXPECT_EQ(one.reported, three.reported);
+  EXPECT_EQ(one.reported.at(0), (ResultLines{"core-block HIT by x"}));
   EXPECT_EQ(one.reports.at(0).hash, three.reports.at(0).hash);
 }
 
@@ -285,7 +288,7 @@ TEST(RulesRelation, TheLogHasTheClassesOfWhatIsNotReported) {
   EXPECT_EQ(logged(clash::Class::contact), 1);
 }
 
-TEST(RulesRelation, TheBaselineTellsNone) {
+TEST(RulesRelation, TheBaselineReportsNone) {
   const ClashModel m = scene();
   for (const char* const keys : {"relation = 'inside'", "max_volume = '1l'"}) {
     const auto rules =
@@ -314,11 +317,11 @@ TEST(RulesRelation, FaultsNamePlaceCauseAndMend) {
       {"max_volume = '5 gallons'", "write mm3, cm3, dm3, l, m3, in3 or ft3"},
       {"relations = 'inside'", "no key 'relations'"},
   };
-  for (const auto& [key, said] : faults) {
+  for (const auto& [key, stated] : faults) {
     const auto rules =
         Rules::parse("[[allowed]]\nname = 'x'\na = '*'\nb = '*'\n" + key + "\n", "r.toml");
     ASSERT_FALSE(rules) << key;
-    EXPECT_NE(rules.error().text().find(said), std::string::npos) << rules.error().text();
+    EXPECT_NE(rules.error().text().find(stated), std::string::npos) << rules.error().text();
   }
 }
 

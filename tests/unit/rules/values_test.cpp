@@ -13,8 +13,8 @@ namespace {
 
 using test::Counts;
 using test::exempted;
+using test::ResultLines;
 using test::Row;
-using test::Told;
 using test::warned;
 
 std::vector<std::string> listed(const std::string& value, const std::string& separator = ",") {
@@ -51,7 +51,7 @@ TEST(RulesValues, QuotesRoundAPieceOrTheWholeList) {
 }
 
 /// A missed clash otherwise: two that are joined to nothing are joined to each other.
-TEST(RulesValues, WhatSaysThatThereIsNoneConnectsNothing) {
+TEST(RulesValues, WhatStatesThatThereIsNoneConnectsNothing) {
   const std::string rule =
       "[[connected]]\nname = \"joints\"\nattributes = [\"NODES\"]\nseparator = \",\"\n";
   for (const std::string none : {"unset", " Unset", "Nulref", "none", "=0/0", "", " ", "'unset'"}) {
@@ -61,24 +61,24 @@ TEST(RulesValues, WhatSaysThatThereIsNoneConnectsNothing) {
                         .cube("a", {{"NODES", "n1," + none}})
                         .cube("b", {{"NODES", none + ",n3"}})
                         .cube(name, {{"NODES", none + "," + none}});
-    EXPECT_EQ(row.hits(rule + "by = \"node\""), (Told{"a-b HIT", "b-" + name + " HIT"}));
-    EXPECT_EQ(row.hits(rule), (Told{"a-b HIT", "b-" + name + " HIT"}));
+    EXPECT_EQ(row.hits(rule + "by = \"node\""), (ResultLines{"a-b HIT", "b-" + name + " HIT"}));
+    EXPECT_EQ(row.hits(rule), (ResultLines{"a-b HIT", "b-" + name + " HIT"}));
   }
   const Row row = Row().cube("P", {}).cube("a", {{"NODES", "\"R\",P"}}).cube("R", {});
   EXPECT_EQ(exempted(row.run(rule).reports[0]), (Counts{{"joints", 2}}));
 }
 
-TEST(RulesValues, WhatSaysThatThereIsNoneIsNoUnitSystemOrLevel) {
+TEST(RulesValues, WhatStatesThatThereIsNoneIsNoUnitSystemOrLevel) {
   for (const std::string none : {"unset", "Nulref", "=0/0", "", " '' ", "\"unset\""}) {
     SCOPED_TRACE(none);
     const Row row = Row().cube("a", {{"X", none}}).cube("b", {{"X", none}}).cube("c", {{"X", "1"}});
-    const Told both{"a-b HIT", "b-c HIT"};
+    const ResultLines both{"a-b HIT", "b-c HIT"};
     EXPECT_EQ(row.hits("[[same_attribute]]\nname = \"s\"\nattribute = \"X\""), both);
     auto outcome = row.run("[unit_groups]\nattribute = \"X\"");
-    EXPECT_EQ(outcome.told[0], both);
+    EXPECT_EQ(outcome.reported[0], both);
     EXPECT_EQ(warned(outcome.diagnostics, "unit-not-a-number"), "");
     outcome = row.run("[obstruction]\nattribute = \"X\"");
-    EXPECT_EQ(outcome.told[0], both);
+    EXPECT_EQ(outcome.reported[0], both);
     EXPECT_EQ(outcome.reports[0].pairs[0].level_a, clash::Level::hard);
     EXPECT_EQ(outcome.reports[0].pairs[1].level_b, clash::Level::soft);
     EXPECT_EQ(warned(outcome.diagnostics, "obstruction-not-known"), "");
@@ -92,11 +92,11 @@ TEST(RulesValues, AGroupWithoutANameIsNotTheSameAsAnother) {
   Row row;
   const auto one = row.group("site"), two = row.group("site");
   row.cube("a", {}, row.group("", one), 0).cube("b", {}, row.group("", two), 1);
-  EXPECT_EQ(row.hits(rule), (Told{"a-b HIT"}));
+  EXPECT_EQ(row.hits(rule), (ResultLines{"a-b HIT"}));
   Row same;
   const auto nameless = same.group("");
   same.cube("a", {}, nameless).cube("b", {}, nameless);
-  EXPECT_EQ(same.hits(rule), Told{}) << "the one group";
+  EXPECT_EQ(same.hits(rule), ResultLines{}) << "the one group";
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ std::string fault_of(const std::string& text) {
   return read ? std::string() : read.error().message;
 }
 
-TEST(DecisionRequest, says_what_is_decided_about_what) {
+TEST(DecisionRequest, states_what_is_decided_about_what) {
   const Result<DecisionRequest> read = read_decision_request(kWhole);
   ASSERT_TRUE(read) << read.error().text();
   EXPECT_EQ(read->keys, (std::vector<std::string>{"k1", "k2"}));
-  EXPECT_EQ(read->seen, (project::SeenState{3, 12}));
+  EXPECT_EQ(read->known, (project::KnownState{3, 12}));
   EXPECT_EQ(read->decision.status, report::DecisionStatus::approved);
   EXPECT_EQ(read->decision.assignee, "");
   EXPECT_EQ(read->decision.comment, "as \"agreed\"");
@@ -34,7 +34,7 @@ TEST(DecisionRequest, what_is_left_out_stays_as_it_is) {
   EXPECT_FALSE(read->decision.assignee);
 }
 
-TEST(DecisionRequest, whatever_makes_no_sense_is_told) {
+TEST(DecisionRequest, whatever_makes_no_sense_is_reported) {
   EXPECT_EQ(fault_of(""), "the request is no JSON");
   EXPECT_EQ(fault_of("[]"), "the request is no object");
   EXPECT_EQ(fault_of("{} x"), "the request is no JSON");
@@ -65,10 +65,10 @@ TEST(DecisionRequest, a_text_that_each_clash_would_have_is_not_endless) {
     return std::string(R"({"run":0,"event":0,"keys":["k"],")") + name + "\":\"" +
            std::string(bytes, 'x') + "\"}";
   };
-  constexpr std::size_t kMost = 65536;
-  EXPECT_EQ(fault_of(request("comment", kMost)), "");
-  EXPECT_EQ(fault_of(request("comment", kMost + 1)), "the comment is longer than 64 KiB");
-  EXPECT_EQ(fault_of(request("assignee", kMost + 1)), "the assignee is longer than 64 KiB");
+  constexpr std::size_t kMax = 65536;
+  EXPECT_EQ(fault_of(request("comment", kMax)), "");
+  EXPECT_EQ(fault_of(request("comment", kMax + 1)), "the comment is longer than 64 KiB");
+  EXPECT_EQ(fault_of(request("assignee", kMax + 1)), "the assignee is longer than 64 KiB");
 }
 
 TEST(DecisionRequest, deep_nesting_is_no_way_in) {

@@ -67,7 +67,7 @@ class Client {
       got.append(piece.data(), static_cast<std::size_t>(read));
     }
   }
-  std::string ask(std::string_view text) {
+  std::string exchange(std::string_view text) {
     send(text);
     return receive();
   }

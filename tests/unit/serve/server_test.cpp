@@ -36,9 +36,9 @@ class Echo final : public RequestHandler {
   Answer answer(const Request& request) override {
     if (request.path == "/large")
       return text_answer(HttpStatus::ok, std::string(std::size_t{8} << 20U, 'x'));
-    std::string said = request.method + " " + request.path;
-    for (const auto& [name, value] : request.arguments) said += " " + name + "=" + value;
-    return text_answer(HttpStatus::ok, said + " " + request.body);
+    std::string shown = request.method + " " + request.path;
+    for (const auto& [name, value] : request.arguments) shown += " " + name + "=" + value;
+    return text_answer(HttpStatus::ok, shown + " " + request.body);
   }
 };
 
@@ -80,7 +80,7 @@ class ServerTest : public ::testing::Test {
     served_.reset();
     served_ = std::make_unique<Served>(Server::listen(0, limits).value(), echo_);
   }
-  std::string ask(const std::string& text) { return Client(served_->port()).ask(text); }
+  std::string exchange(const std::string& text) { return Client(served_->port()).exchange(text); }
   static std::string get(const std::string& target) {
     return "GET " + target + " HTTP/1.1\r\nHost: x\r\n\r\n";
   }
@@ -88,18 +88,18 @@ class ServerTest : public ::testing::Test {
   std::unique_ptr<Served> served_;
 };
 
-TEST_F(ServerTest, answers_what_is_asked_and_decodes_nothing) {
-  const std::string answer = ask(get("/a%2fb%00?event=%31&x"));
+TEST_F(ServerTest, answers_what_is_requested_and_decodes_nothing) {
+  const std::string answer = exchange(get("/a%2fb%00?event=%31&x"));
   EXPECT_EQ(code_of(answer), 200);
   EXPECT_EQ(body_of(answer), "GET /a%2fb%00 event=%31 x= \n");
-  EXPECT_EQ(body_of(ask("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\n\r\nhello")),
+  EXPECT_EQ(body_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 5\r\n\r\nhello")),
             "POST /p hello\n");
-  EXPECT_EQ(body_of(ask(get("/../../etc/passwd"))), "GET /../../etc/passwd \n");
+  EXPECT_EQ(body_of(exchange(get("/../../etc/passwd"))), "GET /../../etc/passwd \n");
 }
 
 TEST_F(ServerTest, one_connection_takes_several_requests) {
   Client client(served_->port());
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(code_of(client.ask(get("/a"))), 200);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(code_of(client.exchange(get("/a"))), 200);
 }
 
 TEST_F(ServerTest, a_port_is_had_once) {
@@ -115,16 +115,17 @@ TEST_F(ServerTest, a_port_is_had_once) {
 
 TEST_F(ServerTest, bodies_are_limited_before_they_come) {
   start(small_limits());
-  EXPECT_EQ(code_of(ask("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1001\r\n\r\n")), 413);
-  EXPECT_EQ(code_of(ask("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: "
-                        "99999999999999999999999999\r\n\r\n")) /
+  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1001\r\n\r\n")), 413);
+  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: "
+                             "99999999999999999999999999\r\n\r\n")) /
                 100,
             4);
-  EXPECT_EQ(code_of(ask("POST /p HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n")), 411);
-  EXPECT_EQ(code_of(ask("POST /p HTTP/1.1\r\nHost: x\r\n\r\n")), 411);
-  EXPECT_EQ(code_of(ask("POST /no HTTP/1.1\r\nHost: x\r\nContent-Length: 900\r\n\r\n")), 403);
-  const std::string whole =
-      ask("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1000\r\n\r\n" + std::string(1000, 'b'));
+  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n")),
+            411);
+  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\n\r\n")), 411);
+  EXPECT_EQ(code_of(exchange("POST /no HTTP/1.1\r\nHost: x\r\nContent-Length: 900\r\n\r\n")), 403);
+  const std::string whole = exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1000\r\n\r\n" +
+                                     std::string(1000, 'b'));
   EXPECT_EQ(code_of(whole), 200);
 }
 
@@ -139,10 +140,10 @@ TEST_F(ServerTest, huge_heads_are_turned_away) {
               return many;
             }() +
             "\r\n"}) {
-    const int code = code_of(ask(head));
+    const int code = code_of(exchange(head));
     EXPECT_TRUE(code == 0 || code / 100 == 4) << code;
   }
-  EXPECT_EQ(code_of(ask(get("/a"))), 200) << "it goes on";
+  EXPECT_EQ(code_of(exchange(get("/a"))), 200) << "it goes on";
 }
 
 TEST_F(ServerTest, what_is_no_request_does_no_harm) {
@@ -163,8 +164,8 @@ TEST_F(ServerTest, what_is_no_request_does_no_harm) {
         std::string("\x16\x03\x01\x02\x00\x01", 6),
         std::string("GET / HTTP/1.1\r\nHost: x\r\nContent-Length: -1\r\n\r\n"),
         std::string("GET / HTTP/1.1\r\n: x\r\n\r\n")})
-    EXPECT_NE(code_of(Client(served_->port(), 5).ask(strange)), 500);
-  EXPECT_EQ(code_of(ask(get("/a"))), 200);
+    EXPECT_NE(code_of(Client(served_->port(), 5).exchange(strange)), 500);
+  EXPECT_EQ(code_of(exchange(get("/a"))), 200);
 }
 
 TEST_F(ServerTest, slow_clients_keep_nobody_waiting_and_are_ended) {
@@ -174,7 +175,7 @@ TEST_F(ServerTest, slow_clients_keep_nobody_waiting_and_are_ended) {
     slow.push_back(std::make_unique<Client>(served_->port()));
     slow.back()->send("GET / HTTP/1.1\r\nHost: x\r\nX-Slow: ");
   }
-  EXPECT_EQ(code_of(ask(get("/a"))), 200);
+  EXPECT_EQ(code_of(exchange(get("/a"))), 200);
   // A byte now and then is no silence, and no request either.
   bool ended = false;
   for (int i = 0; i < 40 && !ended; ++i) {
@@ -182,7 +183,7 @@ TEST_F(ServerTest, slow_clients_keep_nobody_waiting_and_are_ended) {
     ended = !slow.front()->send("y");
   }
   EXPECT_TRUE(ended);
-  EXPECT_EQ(code_of(ask(get("/a"))), 200);
+  EXPECT_EQ(code_of(exchange(get("/a"))), 200);
 }
 
 TEST_F(ServerTest, many_read_at_once_and_one_that_stops_reading_stops_none) {
@@ -192,7 +193,7 @@ TEST_F(ServerTest, many_read_at_once_and_one_that_stops_reading_stops_none) {
   std::vector<std::size_t> sizes(8, 0);
   for (std::size_t i = 0; i < sizes.size(); ++i)
     readers.emplace_back(
-        [&, i] { sizes[i] = body_of(Client(served_->port()).ask(get("/large"))).size(); });
+        [&, i] { sizes[i] = body_of(Client(served_->port()).exchange(get("/large"))).size(); });
   readers.clear();
   for (const std::size_t size : sizes) EXPECT_EQ(size, (std::size_t{8} << 20U) + 1);
 }
@@ -208,13 +209,13 @@ TEST_F(ServerTest, who_waits_keeps_nobody_waiting) {
   also.send(get("/wait"));
   for (int i = 0; i < 3; ++i) {
     std::this_thread::sleep_for(500ms);
-    EXPECT_EQ(body_of(Client(served.port()).ask(get("/a"))), "/a\n");
+    EXPECT_EQ(body_of(Client(served.port()).exchange(get("/a"))), "/a\n");
   }
   EXPECT_GE(patient.longest(), 1s);
   patient.end_waiting();
   EXPECT_EQ(body_of(waiting.receive()), "/wait\n");
   EXPECT_EQ(body_of(also.receive()), "/wait\n");
-  EXPECT_EQ(body_of(waiting.ask(get("/b"))), "/b\n") << "the connection goes on";
+  EXPECT_EQ(body_of(waiting.exchange(get("/b"))), "/b\n") << "the connection goes on";
 }
 
 TEST_F(ServerTest, a_stop_ends_it_while_some_wait_and_some_of_them_went_away) {
@@ -223,21 +224,21 @@ TEST_F(ServerTest, a_stop_ends_it_while_some_wait_and_some_of_them_went_away) {
   const Client waiting(served.port());
   waiting.send(get("/wait"));
   for (int i = 0; i < 5; ++i) Client(served.port()).send(get("/wait"));
-  EXPECT_EQ(code_of(Client(served.port()).ask(get("/a"))), 200);
+  EXPECT_EQ(code_of(Client(served.port()).exchange(get("/a"))), 200);
   std::this_thread::sleep_for(200ms);
   EXPECT_TRUE(served.stop());
 }
 
 TEST_F(ServerTest, clients_that_go_away_end_nothing) {
   for (int i = 0; i < 20; ++i) Client(served_->port()).send(get("/large"));
-  EXPECT_EQ(code_of(ask(get("/a"))), 200);
+  EXPECT_EQ(code_of(exchange(get("/a"))), 200);
 }
 
 TEST_F(ServerTest, a_stop_ends_it_at_once_with_clients_on_it) {
   const Client silent(served_->port());
   silent.send("GET /");
   Client idle(served_->port());
-  idle.ask(get("/a"));
+  idle.exchange(get("/a"));
   const auto before = std::chrono::steady_clock::now();
   EXPECT_TRUE(served_->stop());
   EXPECT_LT(std::chrono::steady_clock::now() - before, 900ms) << "it waits for a second at most";

@@ -33,7 +33,7 @@ class SiteTest : public ::testing::Test {
                ++made_;
                if (fails_) return Error{ErrorCode::input, "is damaged", "ship.strake", "mend it"};
                return ServedPage{std::make_shared<const std::string>("<p>page"),
-                                 "default-src 'none'", project::state_now(*database_).value()};
+                                 "default-src 'none'", project::current_state(*database_).value()};
              },
              "ann", [] { return std::string("2026-01-02T03:04:05Z"); }}};
   }
@@ -47,22 +47,22 @@ class SiteTest : public ::testing::Test {
                         {"Strake-Token", kSiteToken}},
             .body = {}};
   }
-  static unsigned refusal(Site& site, const Request& asked) {
-    const auto refused = site.refuse(asked);
+  static unsigned refusal(Site& site, const Request& sent) {
+    const auto refused = site.refuse(sent);
     return refused ? static_cast<unsigned>(refused->status) : 200U;
   }
   json decide(Site& site, const json& body, HttpStatus expected) {
-    Request asked = request("POST", "/api/decide");
-    asked.body = body.dump();
-    EXPECT_EQ(refusal(site, asked), 200U);
-    const Answer answer = site.answer(asked);
+    Request sent = request("POST", "/api/decide");
+    sent.body = body.dump();
+    EXPECT_EQ(refusal(site, sent), 200U);
+    const Answer answer = site.answer(sent);
     EXPECT_EQ(answer.status, expected) << *answer.body;
     return json::parse(*answer.body);
   }
   json state(Site& site, std::int64_t event) {
-    Request asked = request("GET", "/api/state");
-    asked.arguments = {{"event", std::to_string(event)}};
-    return json::parse(*site.answer(asked).body);
+    Request sent = request("GET", "/api/state");
+    sent.arguments = {{"event", std::to_string(event)}};
+    return json::parse(*site.answer(sent).body);
   }
   std::unique_ptr<project::Database> database_ = project_with_clashes(3);
   int made_ = 0;
@@ -94,7 +94,7 @@ TEST_F(SiteTest, the_page_is_made_once_for_each_run) {
   EXPECT_EQ(made_, 2);
 }
 
-TEST_F(SiteTest, what_is_wrong_with_the_project_is_said_in_words) {
+TEST_F(SiteTest, what_is_wrong_with_the_project_is_stated_in_words) {
   Site here = site();
   fails_ = true;
   const Answer answer = here.answer(request("GET", "/"));
@@ -121,7 +121,7 @@ TEST_F(SiteTest, other_paths_methods_and_types_are_turned_away) {
   EXPECT_EQ(refusal(here, typed), 200U);
 }
 
-TEST_F(SiteTest, every_answer_says_that_it_is_not_to_be_kept_and_nobody_elses) {
+TEST_F(SiteTest, every_answer_states_that_it_is_not_to_be_kept_and_nobody_elses) {
   Site here = site();
   Request strange = request("GET", "/");
   strange.headers.clear();
@@ -138,7 +138,7 @@ TEST_F(SiteTest, every_answer_says_that_it_is_not_to_be_kept_and_nobody_elses) {
   }
 }
 
-TEST_F(SiteTest, a_decision_is_taken_and_told) {
+TEST_F(SiteTest, a_decision_is_taken_and_reported) {
   Site here = site();
   const json done = decide(here,
                            {{"run", 1},
@@ -181,7 +181,7 @@ TEST_F(SiteTest, what_changed_meanwhile_is_a_conflict_and_the_rest_stands) {
   EXPECT_EQ(done["clashes"][1]["status"], "approved");
 }
 
-TEST_F(SiteTest, a_run_that_came_in_between_is_told) {
+TEST_F(SiteTest, a_run_that_came_in_between_is_reported) {
   Site here = site();
   add_run(*database_, 2);
   EXPECT_EQ(state(here, 0)["run"], 2);
@@ -191,8 +191,8 @@ TEST_F(SiteTest, a_run_that_came_in_between_is_told) {
   EXPECT_EQ(done["run"], 2) << "it still stands, and the page is told of the run";
 }
 
-TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_told) {
-  const int most = static_cast<int>(kMostChanges);
+TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_reported) {
+  const int most = static_cast<int>(kMaxChanges);
   database_ = project_with_clashes(most + 2);
   Site here = site();
   json keys = json::array();
@@ -200,7 +200,7 @@ TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_told) {
   const json own = decide(here, {{"run", 1}, {"event", 0}, {"keys", keys}, {"status", "reviewed"}},
                           HttpStatus::ok);
   EXPECT_EQ(own["too_many"], false);
-  EXPECT_EQ(own["clashes"].size(), kMostChanges + 1);
+  EXPECT_EQ(own["clashes"].size(), kMaxChanges + 1);
   // To whom it is not their own it is, whatever they decide besides.
   EXPECT_EQ(state(here, 0)["too_many"], true);
   const json other =
@@ -213,11 +213,11 @@ TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_told) {
 
 TEST_F(SiteTest, what_makes_no_sense_changes_nothing) {
   Site here = site();
-  Request asked = request("POST", "/api/decide");
+  Request sent = request("POST", "/api/decide");
   for (const char* const body : {"", "null", "[1]", "{\"run\":1}",
                                  "{\"run\":1,\"event\":0,\"keys\":[\"k\"],\"status\":\"?\"}"}) {
-    asked.body = body;
-    const Answer answer = here.answer(asked);
+    sent.body = body;
+    const Answer answer = here.answer(sent);
     EXPECT_EQ(answer.status, HttpStatus::bad_request) << body;
     EXPECT_FALSE(json::parse(*answer.body)["error"].get<std::string>().empty());
   }
@@ -226,7 +226,7 @@ TEST_F(SiteTest, what_makes_no_sense_changes_nothing) {
     state.arguments = {{"event", event}};
     EXPECT_EQ(here.answer(state).status, HttpStatus::bad_request) << event;
   }
-  EXPECT_EQ(project::state_now(*database_)->event, 0);
+  EXPECT_EQ(project::current_state(*database_)->event, 0);
 }
 
 TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
@@ -239,27 +239,27 @@ TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
       R"({"run":1,"event":0,"keys":[")" + clash_key(2) + R"("],"status":"approved"})";
   const std::string answer =
       test::Client(served.port())
-          .ask("POST /api/decide HTTP/1.1\r\n" + head +
-               "Origin: http://127.0.0.1:8123\r\nContent-Type: application/json\r\n" +
-               "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+          .exchange("POST /api/decide HTTP/1.1\r\n" + head +
+                    "Origin: http://127.0.0.1:8123\r\nContent-Type: application/json\r\n" +
+                    "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
   EXPECT_EQ(test::code_of(answer), 200) << answer;
-  std::vector<std::string> seen(8);
+  std::vector<std::string> found(8);
   std::vector<std::jthread> readers;
-  for (std::string& state : seen)
+  for (std::string& state : found)
     readers.emplace_back([&] {
       for (int i = 0; i < 20; ++i)
-        state = test::body_of(
-            test::Client(served.port()).ask("GET /api/state?event=0 HTTP/1.1\r\n" + head + "\r\n"));
+        state = test::body_of(test::Client(served.port())
+                                  .exchange("GET /api/state?event=0 HTTP/1.1\r\n" + head + "\r\n"));
     });
   readers.clear();
-  for (const std::string& state : seen) {
-    const json told = json::parse(state);
-    EXPECT_EQ(told["clashes"].size(), 1U);
-    EXPECT_EQ(told["clashes"][0]["status"], "approved");
+  for (const std::string& state : found) {
+    const json parsed = json::parse(state);
+    EXPECT_EQ(parsed["clashes"].size(), 1U);
+    EXPECT_EQ(parsed["clashes"][0]["status"], "approved");
   }
   const std::string without =
       test::Client(served.port())
-          .ask("GET /api/state?event=0 HTTP/1.1\r\nHost: 127.0.0.1:8123\r\n\r\n");
+          .exchange("GET /api/state?event=0 HTTP/1.1\r\nHost: 127.0.0.1:8123\r\n\r\n");
   EXPECT_EQ(test::code_of(without), 403);
   EXPECT_NE(without.find("Cache-Control: no-store"), std::string::npos);
   EXPECT_TRUE(served.stop());

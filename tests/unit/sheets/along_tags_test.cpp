@@ -142,19 +142,19 @@ TEST(AlongTags, StandAboveSingleLines) {
   EXPECT_NEAR(above_middle(sheet.views[0], sheet.views[0].tags.texts[0]), 1.4, 0.1);
 }
 
-TEST(AlongTags, ThatAreTooLongHaveLeadersAndAreTold) {
+TEST(AlongTags, ThatAreTooLongHaveLeadersAndAreReported) {
   const model::Model model = pipes({{"P-1", {0, 0, 0}, {400, 0, 0}}});
   const Sheet sheet = sheet_of(model, {}, "THE PIPE {{name}}");
   ASSERT_EQ(sheet.views[0].tags.texts.size(), 1U);
   EXPECT_EQ(sheet.views[0].tags.texts[0].turn_deg, 0);
   EXPECT_EQ(sheet.views[0].tags.paths.size(), 2U);
   const auto& kept = sheet.diagnostics.kept();
-  const auto told = std::ranges::find(kept, "tag-not-along", &Diagnostic::code);
-  ASSERT_NE(told, kept.end());
-  EXPECT_EQ(told->severity, Severity::note);
-  EXPECT_NE(told->message.find("1 object has its tag 'THE PIPE P-1' at a leader"),
+  const auto reported = std::ranges::find(kept, "tag-not-along", &Diagnostic::code);
+  ASSERT_NE(reported, kept.end());
+  EXPECT_EQ(reported->severity, Severity::note);
+  EXPECT_NE(reported->message.find("1 object has its tag 'THE PIPE P-1' at a leader"),
             std::string::npos);
-  EXPECT_NE(told->where.find("the view 'v'"), std::string::npos);
+  EXPECT_NE(reported->where.find("the view 'v'"), std::string::npos);
 }
 
 TEST(AlongTags, StandWhereAPipeIsSeen) {
@@ -174,8 +174,8 @@ TEST(AlongTags, StandWhereAPipeIsSeen) {
   const PlacedView& view = sheet.views[0];
   const auto text = std::ranges::find(view.tags.texts, "P-1", &Text::text);
   ASSERT_NE(text, view.tags.texts.end());
-  const double seen = view.box.left + 2000.0 / 50;
-  EXPECT_LT(box_of(*text).right, seen);
+  const double visible = view.box.left + 2000.0 / 50;
+  EXPECT_LT(box_of(*text).right, visible);
   EXPECT_FALSE(covers_lines(view, *text));
 }
 

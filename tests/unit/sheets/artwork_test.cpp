@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Templates of sheets in PDF: paths, transforms and styles, and what is told of the rest.
+// Templates of sheets in PDF: paths, transforms and styles, and what is reported the rest.
 #include "sheets/output/artwork/artwork.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Artwork, PathsAreThoseOfSvg) {
   EXPECT_EQ(path_of("M1e300 0"), "1000000000 0 m\n") << "far off the sheet";
 }
 
-TEST(Artwork, ArcsEndWhereTheySayAndBulgeAsFarAsTheirAxes) {
+TEST(Artwork, ArcsEndWhereTheyStateAndBulgeAsFarAsTheirAxes) {
   // Half a circle over the chord from (0, 0) to (10, 0): clockwise on paper is upwards.
   const std::string over = path_of("M0 0A5 5 0 0 1 10 0"), under = path_of("M0 0a5 5 0 0010 0");
   EXPECT_TRUE(over.ends_with("10 0 c\n"));
@@ -73,16 +73,16 @@ TEST(Artwork, TransformsFollowEachOther) {
   EXPECT_DOUBLE_EQ(Affine({2, 0, 0, 8, 0, 0}).scale(), 4);
 }
 
-/// The operators of a template on a sheet of 100 x 50 mm, and what was told.
+/// The operators of a template on a sheet of 100 x 50 mm, and what was reported.
 struct Artwork {
   std::string operators;
-  Diagnostics told;
+  Diagnostics reported;
 
   explicit Artwork(const std::string& elements, const std::string& view_box = "0 0 100 50") {
     const auto nowhere = [](std::string_view) {};
     drawing::PdfDocument document(nowhere, "t", "");
     const Status status =
-        append_artwork(operators, document, {view_box, elements}, {100, 50}, told);
+        append_artwork(operators, document, {view_box, elements}, {100, 50}, reported);
     EXPECT_TRUE(status) << elements;
   }
   [[nodiscard]] bool has(std::string_view text) const {
@@ -90,7 +90,7 @@ struct Artwork {
   }
 };
 
-TEST(Artwork, ShapesAreFilledBlackUnlessTheySayOtherwise) {
+TEST(Artwork, ShapesAreFilledBlackUnlessTheyStateOtherwise) {
   EXPECT_EQ(Artwork("<rect x='1' y='2' width='3' height='4'></rect>").operators,
             "q\n0 0 0 rg\n1 2 m\n4 2 l\n4 6 l\n1 6 l\n1 2 l\nh\nf\nQ\n");
   const Artwork line(
@@ -130,7 +130,7 @@ TEST(Artwork, StylesHoldByTheirWeight) {
       "g rect { fill: red } /* rect { fill: blue } */</style>";
   const auto fill = [&](const std::string& attributes) {
     const Artwork drawn(styles + "<rect width='1' height='1' " + attributes + "></rect>");
-    EXPECT_EQ(drawn.told.count("template-part-left-out"), 1U) << "the selector of two";
+    EXPECT_EQ(drawn.reported.count("template-part-left-out"), 1U) << "the selector of two";
     return drawn.operators.substr(2, 4);
   };
   EXPECT_EQ(fill("fill='#090909'"), ".004");
@@ -149,7 +149,7 @@ TEST(Artwork, GroupsUsesAndTheViewBoxMoveWhatTheyHold) {
   EXPECT_TRUE(drawn.has("5 0 m\n5.5 0 l\n"));
   EXPECT_TRUE(drawn.has("1 0 0 RG"));
   EXPECT_TRUE(drawn.has("2.5 2.5 m\n3 2.5 l\n"));
-  EXPECT_TRUE(drawn.told.counts().empty());
+  EXPECT_TRUE(drawn.reported.counts().empty());
   // A box of another shape lies in the middle of the paper.
   EXPECT_TRUE(Artwork("<path d='M0 0L1 0 1 1'></path>", "0 0 50 50").has("25 0 m\n"));
 }
@@ -172,18 +172,18 @@ TEST(Artwork, TextsStandAtTheirAnchors) {
   EXPECT_EQ(Artwork("<text fill='none'>0</text>").operators, "");
 }
 
-TEST(Artwork, TellsWhatIsLeftOut) {
+TEST(Artwork, ReportsWhatIsLeftOut) {
   const Artwork drawn(
       "<image href='data:image/png;base64,AA=='></image><rect width='1' height='1' "
       "fill='url(#g)' opacity='0.5'></rect><circle r='2'></circle><g clip-path='url(#c)'></g>"
       "<text><textPath href='#p'>along</textPath></text>");
-  EXPECT_EQ(drawn.told.count("template-part-left-out"), 5U);
+  EXPECT_EQ(drawn.reported.count("template-part-left-out"), 5U);
   EXPECT_TRUE(drawn.has("f\n")) << "the rest is drawn";
   // A light gradient behind texts would be a black box that hides them.
   EXPECT_EQ(Artwork("<rect width='1' height='1' fill='url(#g)'></rect>").operators, "");
   EXPECT_TRUE(Artwork("<rect width='1' height='1' fill='url(#g) #f00'></rect>").has("1 0 0 rg\n"));
   // References that lead in a circle, which no template has that was read.
-  EXPECT_EQ(Artwork("<g id='a'><use href='#a'></use></g>").told.counts().size(), 1U);
+  EXPECT_EQ(Artwork("<g id='a'><use href='#a'></use></g>").reported.counts().size(), 1U);
 }
 
 TEST(SheetPdf, HasAPageForEachSheetWithItsViewsAsLayers) {
@@ -198,9 +198,9 @@ TEST(SheetPdf, HasAPageForEachSheetWithItsViewsAsLayers) {
   const auto pdf = [&](const parallel::Context& context) {
     const std::vector<Sheet> two{drawn->sheet, drawn->sheet};
     std::string bytes;
-    const auto told =
+    const auto reported =
         write_pdf(two, drawn->model.model, [&](std::string_view part) { bytes += part; }, context);
-    EXPECT_TRUE(told && told->counts().empty());
+    EXPECT_TRUE(reported && reported->counts().empty());
     return bytes;
   };
   const std::string bytes = pdf({});

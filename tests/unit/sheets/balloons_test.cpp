@@ -30,8 +30,8 @@ Drawn ballooned(const std::string& views, const std::string& balloons,
 
 std::string message_of(const Drawn& d, const std::string& code) {
   const auto& kept = d.sheet.diagnostics.kept();
-  const auto told = std::ranges::find(kept, code, &Diagnostic::code);
-  return told == kept.end() ? std::string() : told->message;
+  const auto reported = std::ranges::find(kept, code, &Diagnostic::code);
+  return reported == kept.end() ? std::string() : reported->message;
 }
 
 /// Returns the object that the leader of a balloon points at: the one on whose visible line its tip
@@ -113,7 +113,7 @@ TEST(Balloons, StandInTheFirstViewThatShowsTheRow) {
             std::string::npos);
 }
 
-TEST(Balloons, StandOnTheSideThatIsAskedFor) {
+TEST(Balloons, StandOnTheSideThatIsRequested) {
   for (const std::string side : {"left", "right", "top", "bottom"}) {
     const Drawn d = ballooned(
         "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:100\"\n"
@@ -139,7 +139,7 @@ TEST(Balloons, OfRowsThatTheListHasNoRoomForAreNotDrawn) {
   EXPECT_EQ(balloons_in(d, d.sheet.views[0]), (NumberedObjects{{"1", "base"}, {"2", "far"}}));
 }
 
-TEST(Balloons, WithoutRoomAreTold) {
+TEST(Balloons, WithoutRoomAreReported) {
   const Drawn d =
       ballooned("[sheet]\nsize=\"A4\"\n" + std::string(kBalloonView), "{size=\"100mm\"}");
   EXPECT_NE(message_of(d, "balloon-no-room").find("no balloon"), std::string::npos);
@@ -167,7 +167,7 @@ TEST(Balloons, NumbersOfManyDigitsBecomeSmallerInAllCircles) {
   EXPECT_LT(ballooned(kBalloonView, "{size=\"3mm\"}").sheet.views[0].tags.texts[0].height_mm, 1.4);
 }
 
-TEST(Balloons, SayWhatIsWrongWithThem) {
+TEST(Balloons, StateWhatIsWrongWithThem) {
   const auto fault = [](const std::string& balloons) {
     return fault_of(
         std::string(kBalloonView) +

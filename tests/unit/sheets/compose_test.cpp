@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of small models: what stands on them, to the micrometre, and what is told of them.
+// Sheets of small models: what stands on them, to the micrometre, and what is reported about them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Drawn drawn(const std::string& text, const test::Templates& templates = {}) {
   return result ? std::move(*result) : Drawn{};
 }
 
-bool told(const Sheet& sheet, const std::string& code, const std::string& words = "") {
+bool reported(const Sheet& sheet, const std::string& code, const std::string& words = "") {
   for (const Diagnostic& d : sheet.diagnostics.kept())
     if (d.code == code && d.message.find(words) != std::string::npos) return true;
   return false;
@@ -92,7 +92,7 @@ TEST(Sheet, AnArrangementOfOneWord) {
   EXPECT_GT(view_of(d.sheet, "right").box.left, view_of(d.sheet, "front").box.right);
 }
 
-TEST(Sheet, AViewLiesWhereItSays) {
+TEST(Sheet, AViewLiesWhereItStates) {
   const Drawn d = drawn(with_frame(
       "[[view]]\nname=\"a\"\ndirection=\"front\"\nscale=\"1:50\"\nposition=[\"100mm\",\"80mm\"]\n"
       "[[view]]\nname=\"b\"\ndirection=\"front\"\nscale=\"1:100\"\nposition=[\"300mm\",\"100mm\"]\n"
@@ -108,8 +108,8 @@ TEST(Sheet, AViewLiesWhereItSays) {
             std::string::npos);  // beside the view, it is not the sheet's
 }
 
-/// A pipe of 3 m: as fine as the scale of each view asks for, given or chosen.
-TEST(Sheet, CurvesAreAsFineAsTheScaleAsksFor) {
+/// A pipe of 3 m: as fine as the scale of each view requests, given or chosen.
+TEST(Sheet, CurvesAreAsFineAsTheScaleRequests) {
   model::Model model;
   model.files.emplace_back();
   model.objects.emplace_back();
@@ -171,7 +171,7 @@ TEST(Sheet, PerspectivesAloneGiveTheSheetNoScale) {
   const Drawn alone = drawn(eye);
   EXPECT_EQ(alone.svg.find(">1:50</text>"), std::string::npos);
   EXPECT_EQ(count_of(alone.svg, ">\xE2\x80\x93</text>"), 1U);
-  EXPECT_FALSE(told(alone.sheet, "field-not-filled", "scale"));
+  EXPECT_FALSE(reported(alone.sheet, "field-not-filled", "scale"));
   // A view that can be measured has its scale in the title block, whichever comes first.
   const Drawn both = drawn(eye + "[[view]]\nname=\"w\"\ndirection=\"front\"\nscale=\"1:100\"\n" +
                            "position=[\"330mm\",\"200mm\"]\n");
@@ -193,20 +193,20 @@ TEST(Sheet, WhatAViewDoesNotShowIsNotWorkedOut) {
   }
   EXPECT_EQ(count(without, drawing::LineState::visible),
             count(dashed, drawing::LineState::visible));
-  std::vector<drawing::Line> seen;
+  std::vector<drawing::Line> visible_lines;
   for (const drawing::Line& line : dashed.sheet.views[0].ink.lines)
-    if (line.state == drawing::LineState::visible) seen.push_back(line);
+    if (line.state == drawing::LineState::visible) visible_lines.push_back(line);
   const std::vector<drawing::Line>& all = without.sheet.views[0].ink.lines;
-  ASSERT_EQ(all.size(), seen.size());
+  ASSERT_EQ(all.size(), visible_lines.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i].a_paper, seen[i].a_paper);
-    EXPECT_EQ(all[i].b_paper, seen[i].b_paper);
+    EXPECT_EQ(all[i].a_paper, visible_lines[i].a_paper);
+    EXPECT_EQ(all[i].b_paper, visible_lines[i].b_paper);
   }
   EXPECT_NE(without.svg.find("hidden-lines=\"not asked for\""), std::string::npos);
   EXPECT_EQ(dashed.svg.find("hidden-lines="), std::string::npos);
 }
 
-TEST(Sheet, ATitleSaysItsSectionUnlessItIsGiven) {
+TEST(Sheet, ATitleStatesItsSectionUnlessItIsGiven) {
   const Drawn d =
       drawn(with_frame("[arrangement]\nviews=[\"top\",\"left\",\"iso\"]\nsections=[\"z>500mm\"]\n"
                        "[arrangement.left]\ntitle=\"\"\n[arrangement.iso]\nsections=[]\n"));
@@ -259,10 +259,10 @@ TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {
   std::sort(base.begin(), base.end());
   ASSERT_NEAR(static_cast<double>(base.size()), 40, 1);
   for (std::size_t i = 1; i < base.size(); ++i) EXPECT_NEAR(base[i] - base[i - 1], 2, 0.0011);
-  EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
+  EXPECT_TRUE(reported(d.sheet, "selection-matches-nothing", "'nobody'"));
 }
 
-TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
+TEST(Sheet, SectionsLeaveWhatAViewStatesWhole) {
   const std::string view =
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nsections=[\"y<300mm\"]\n";
   const auto cut_lines = [](const Drawn& d, std::uint32_t object) {
@@ -278,36 +278,36 @@ TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
   EXPECT_EQ(d.sheet.views[0].drawing.counters.uncut_objects, 1U);
   EXPECT_EQ(d.sheet.views[0].drawing.uncut_selections, (std::vector<std::string>{"nobody", "top"}));
   EXPECT_EQ(count_of(d.svg, " objects-uncut=\"1\""), 1U);
-  EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
+  EXPECT_TRUE(reported(d.sheet, "selection-matches-nothing", "'nobody'"));
   // An empty list takes back what holds for all views.
   const Drawn all = drawn(with_frame("[defaults]\nuncut=\"top\"\n" + view + "uncut=[]\n"));
   EXPECT_GT(cut_lines(all, kTop), 0);
   EXPECT_EQ(count_of(all.svg, "objects-uncut"), 0U);
 }
 
-TEST(Sheet, UncutWithoutSectionsIsTold) {
+TEST(Sheet, UncutWithoutSectionsIsReported) {
   const std::string cut =
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nsections=[\"y=300mm\"]\n"
       "position=[\"100mm\",\"100mm\"]\n";
   const std::string whole =
       "[[view]]\nname=\"w\"\ndirection=\"front\"\nposition=[\"300mm\",\"100mm\"]\n";
-  const auto said = [](const std::string& text) {
+  const auto stated = [](const std::string& text) {
     std::vector<std::string> where;
     const Drawn composed = drawn(with_frame(text));
     for (const Diagnostic& d : composed.sheet.diagnostics.kept())
       if (d.code == "uncut-without-sections") where.push_back(d.where);
     return where;
   };
-  const auto told_of = said(cut + whole + "uncut=\"top\"\n");
-  ASSERT_EQ(told_of.size(), 1U);
-  EXPECT_NE(told_of[0].find("line 10: [[view]] 'w', uncut"), std::string::npos) << told_of[0];
-  EXPECT_TRUE(said(cut + "uncut=\"top\"\n" + whole).empty());
+  const auto faults = stated(cut + whole + "uncut=\"top\"\n");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].find("line 10: [[view]] 'w', uncut"), std::string::npos) << faults[0];
+  EXPECT_TRUE(stated(cut + "uncut=\"top\"\n" + whole).empty());
   // What holds for all views is for those that have sections.
-  EXPECT_TRUE(said("[defaults]\nuncut=\"top\"\n" + cut + whole).empty());
-  EXPECT_EQ(said("[defaults]\nuncut=\"top\"\n" + whole).size(), 1U);
+  EXPECT_TRUE(stated("[defaults]\nuncut=\"top\"\n" + cut + whole).empty());
+  EXPECT_EQ(stated("[defaults]\nuncut=\"top\"\n" + whole).size(), 1U);
 }
 
-TEST(Sheet, FlushSeamsAreLeftOutWhereAViewSaysSo) {
+TEST(Sheet, FlushSeamsAreLeftOutWhereAViewStatesIt) {
   const std::string view = "[[view]]\nname=\"v\"\nscale=\"1:50\"\n";
   EXPECT_EQ(count_of(drawn(with_frame(view)).svg, "edges-with-seams"), 0U);
   const Drawn d = drawn(with_frame(view + "flush_seams=\"off\"\n"));
@@ -327,33 +327,34 @@ TEST(Sheet, FreeViewsShareTheLargestScaleThatKeepsThemApart) {
 TEST(Sheet, WhatIsAmissIsNamed) {
   const std::string view = "[[view]]\nname=\"v\"\nselect=\"nobody\"\n";
   const Drawn nobody = drawn(with_frame(view));
-  EXPECT_TRUE(told(nobody.sheet, "selection-matches-nothing", "'nobody' picks no object"));
-  EXPECT_TRUE(told(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
+  EXPECT_TRUE(reported(nobody.sheet, "selection-matches-nothing", "'nobody' picks no object"));
+  EXPECT_TRUE(
+      reported(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
   const Drawn outside = drawn(
       with_frame("[[view]]\nname=\"v\"\nlimits={min=[\"90m\",0,0],max=[\"91m\",\"1m\",\"1m\"]}\n"));
-  EXPECT_TRUE(told(outside.sheet, "view-empty", "nothing lies within what it shows"));
+  EXPECT_TRUE(reported(outside.sheet, "view-empty", "nothing lies within what it shows"));
   const Drawn off =
       drawn(with_frame("[[view]]\nname=\"v\"\nscale=\"1:1\"\nposition=[\"10mm\",\"10mm\"]\n"));
-  EXPECT_TRUE(told(off.sheet, "view-off-the-sheet"));
+  EXPECT_TRUE(reported(off.sheet, "view-off-the-sheet"));
   const Drawn over =
       drawn(with_frame("[[view]]\nname=\"a\"\nscale=\"1:50\"\nposition=[\"200mm\",\"100mm\"]\n"
                        "[[view]]\nname=\"b\"\nscale=\"1:50\"\nposition=[\"210mm\",\"110mm\"]\n"
                        "[[view]]\nname=\"c\"\ndirection=\"front\"\nscale=\"1:50\"\nposition=["
                        "\"350mm\",\"250mm\"]\n"));
-  EXPECT_TRUE(told(over.sheet, "views-overlap", "'b' at 1:50 overlaps 'a'"));
-  EXPECT_TRUE(told(over.sheet, "view-off-the-frame", "'c'"));
-  EXPECT_TRUE(told(over.sheet, "view-on-title-block", "'c'"));
+  EXPECT_TRUE(reported(over.sheet, "views-overlap", "'b' at 1:50 overlaps 'a'"));
+  EXPECT_TRUE(reported(over.sheet, "view-off-the-frame", "'c'"));
+  EXPECT_TRUE(reported(over.sheet, "view-on-title-block", "'c'"));
   const Drawn fields = drawn("[fields]\ntitel = \"x\"\n[[view]]\nname=\"v\"\n");
-  EXPECT_TRUE(told(fields.sheet, "field-not-filled",
-                   "fields of the title block left empty: drawn, checked"));
+  EXPECT_TRUE(reported(fields.sheet, "field-not-filled",
+                       "fields of the title block left empty: drawn, checked"));
   const Drawn without = drawn("[[view]]\nname=\"v\"\n");
-  EXPECT_TRUE(told(without.sheet, "field-not-filled", "; [fields] gives them"));
+  EXPECT_TRUE(reported(without.sheet, "field-not-filled", "; [fields] gives them"));
   for (const Diagnostic& d : without.sheet.diagnostics.kept())
     EXPECT_TRUE(d.code != "field-not-filled" || d.severity == Severity::note) << "a sheet without";
-  EXPECT_TRUE(told(fields.sheet, "field-not-in-template", "no place for titel"));
+  EXPECT_TRUE(reported(fields.sheet, "field-not-in-template", "no place for titel"));
   const Drawn longer =
       drawn("[fields]\nrevision = \"" + std::string(200, 'W') + "\"\n[[view]]\nname=\"v\"\n");
-  EXPECT_TRUE(told(longer.sheet, "field-too-long", "revision"));
+  EXPECT_TRUE(reported(longer.sheet, "field-too-long", "revision"));
 }
 
 TEST(Sheet, NoRoomIsAnErrorThatNamesTheFile) {
@@ -370,12 +371,12 @@ TEST(Sheet, AViewThatCannotBeDrawnIsNamed) {
   EXPECT_EQ(cut.error().where, "s.toml, line 1: [[view]] 'v', section");
 }
 
-TEST(Sheet, AViewOfWhatIsAllHiddenSaysSo) {
+TEST(Sheet, AViewOfWhatIsAllHiddenReportsIt) {
   // The upper box behind the floor of the base, whose own edges lie outside.
   const Drawn d = drawn(with_frame(
       "[[view]]\nname=\"v\"\ndirection=\"bottom\"\nselect=[\"base\",\"top\"]\n"
       "limits={min=[\"400mm\",\"200mm\",\"-1m\"],max=[\"1600mm\",\"1100mm\",\"2m\"]}\n"));
-  EXPECT_TRUE(told(d.sheet, "view-empty", "all that lies within is hidden"));
+  EXPECT_TRUE(reported(d.sheet, "view-empty", "all that lies within is hidden"));
 }
 
 TEST(Sheet, ViewsOffAnyPaperAreAnError) {
@@ -391,7 +392,7 @@ TEST(Sheet, ViewsOffAnyPaperAreAnError) {
       "[[view]]\nname=\"v\"\nscale=\"1:1\"\nposition=[\"1km\",0]\n"
       "[[tag]]\nselect=\"*\"\ntext=\"x\"\n");
   ASSERT_TRUE(off);
-  EXPECT_TRUE(told(off->sheet, "tag-no-room"));
+  EXPECT_TRUE(reported(off->sheet, "tag-no-room"));
 }
 
 TEST(Sheet, TemplatesReplaceTheFrame) {
@@ -404,15 +405,15 @@ TEST(Sheet, TemplatesReplaceTheFrame) {
       "[[view]]\nname=\"v\"\nscale=\"1:50\"\n",
       templates);
   EXPECT_NE(d.svg.find("<text>&lt;A &amp; B&gt; 1:50 </text>"), std::string::npos);
-  EXPECT_TRUE(told(d.sheet, "field-not-filled", "fields of the template left empty: owner"));
-  EXPECT_TRUE(told(d.sheet, "field-not-in-template", "no place for spare"));
+  EXPECT_TRUE(reported(d.sheet, "field-not-filled", "fields of the template left empty: owner"));
+  EXPECT_TRUE(reported(d.sheet, "field-not-in-template", "no place for spare"));
   EXPECT_EQ(d.svg.find("DRAWING NUMBER"), std::string::npos);
   const Drawn bare = drawn("[sheet]\nframe=false\n[[view]]\nname=\"v\"\n");
   EXPECT_TRUE(bare.sheet.frame.paths.empty());
   EXPECT_TRUE(bare.sheet.diagnostics.counts().empty());
 }
 
-TEST(Sheet, StylesAreWhatTheFileSays) {
+TEST(Sheet, StylesAreWhatTheFileStates) {
   const Drawn d = drawn(with_frame(
       "[[view]]\nname=\"v\"\nhidden=\"dashed\"\n[styles]\nhidden={width=\"0.2mm\",dash=[\"2mm\","
       "\"1.5mm\"],color=\"#123ABC\"}\noutline={width=\"0.9mm\"}\n"));
@@ -475,21 +476,21 @@ TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
   EXPECT_EQ(tags.texts[0].text, "base DN 80");
   EXPECT_EQ(tags.texts[3].text, "B1");
   EXPECT_EQ(tags.paths.size(), 6U);  // a leader and its arrow, three times
-  EXPECT_TRUE(told(d.sheet, "tag-attribute-partly-missing", "1 object lacks some"));
+  EXPECT_TRUE(reported(d.sheet, "tag-attribute-partly-missing", "1 object lacks some"));
   for (const PlacedView& view : d.sheet.views)
     for (std::size_t i = 0; i < view.tags.texts.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         EXPECT_FALSE(box_of(view.tags.texts[i]).overlaps(box_of(view.tags.texts[k])));
   const Drawn none =
       drawn(with_frame("[[view]]\nname=\"v\"\n[[tag]]\nselect=\"far\"\ntext=\"{{@DN}}\"\n"));
-  EXPECT_TRUE(told(none.sheet, "tag-attribute-missing", "1 object has nothing"));
+  EXPECT_TRUE(reported(none.sheet, "tag-attribute-missing", "1 object has nothing"));
   const Drawn once =
       drawn(with_frame("[[view]]\nname=\"v\"\ndirection=\"top\"\n[[tag]]\nselect=\"*\"\ntext="
                        "\"PLATE\"\nonce=true\n"));
   ASSERT_EQ(once.sheet.views[0].tags.texts.size(), 1U);
   const Drawn unseen = drawn(with_frame(
       "[[view]]\nname=\"v\"\nselect=\"base\"\n[[tag]]\nselect=\"far\"\ntext=\"{{name}}\"\n"));
-  EXPECT_TRUE(told(unseen.sheet, "tag-not-seen", "'far'"));
+  EXPECT_TRUE(reported(unseen.sheet, "tag-not-seen", "'far'"));
 }
 
 TEST(Sheet, TagsCoverNoLineOfAnyViewAndTheirLeadersDoNotCross) {
@@ -498,7 +499,7 @@ TEST(Sheet, TagsCoverNoLineOfAnyViewAndTheirLeadersDoNotCross) {
                        "[[tag]]\nselect=\"*\"\ntext=\"{{name}} OF THE SHIP\"\n"
                        "[[tag]]\nselect=\"*\"\ntext=\"{{id}}\"\nstyle=\"plain\"\nviews=[\"top\"]\n"
                        "[grid]\nx=[[\"A\",0],[\"B\",\"2m\"]]\n"));
-  EXPECT_FALSE(told(d.sheet, "tag-no-room"));
+  EXPECT_FALSE(reported(d.sheet, "tag-no-room"));
   std::vector<PaperSegment> lines, leaders;
   for (const PlacedView& view : d.sheet.views) {
     for (const drawing::Line& line : view.ink.lines) lines.push_back({line.a_paper, line.b_paper});
@@ -522,8 +523,8 @@ TEST(Sheet, TagsWithoutRoomAreCountedAndTheFirstIsNamed) {
       "[sheet]\nsize=\"A4\"\n[[view]]\nname=\"v\"\ndirection=\"top\"\n[[tag]]\nselect=\"*\"\n"
       "text=\"THE OBJECT {{name}} OF ALL\"\nheight=\"20mm\"\n"));
   EXPECT_TRUE(d.sheet.views[0].tags.texts.empty());
-  EXPECT_TRUE(told(d.sheet, "tag-no-room",
-                   "3 objects are without their tags, as 'THE OBJECT base OF ALL'"));
+  EXPECT_TRUE(reported(d.sheet, "tag-no-room",
+                       "3 objects are without their tags, as 'THE OBJECT base OF ALL'"));
 }
 
 TEST(Sheet, GridLinesShowWhereTheViewLooksAlongThem) {
@@ -535,7 +536,7 @@ TEST(Sheet, GridLinesShowWhereTheViewLooksAlongThem) {
   EXPECT_EQ(view_of(d.sheet, "top").grid.paths.size(), 2U);
   EXPECT_EQ(view_of(d.sheet, "left").grid.paths.size(), 1U);
   EXPECT_TRUE(view_of(d.sheet, "iso").grid.paths.empty());
-  EXPECT_TRUE(told(d.sheet, "grid-line-nowhere", "'Z'"));
+  EXPECT_TRUE(reported(d.sheet, "grid-line-nowhere", "'Z'"));
   // 2 m are 40 mm, and front and top have them in one line.
   const auto& front = view_of(d.sheet, "front").grid.paths;
   const auto& top = view_of(d.sheet, "top").grid.paths;
@@ -550,7 +551,7 @@ TEST(Sheet, LabelsOfGridLinesThatStandCloseAreThinnedOut) {
       "\"100mm\"\n"));
   const Marks& grid = d.sheet.views[0].grid;
   EXPECT_EQ(grid.paths.size(), 61U);
-  EXPECT_TRUE(told(d.sheet, "grid-label-no-room", "54 grid lines"));
+  EXPECT_TRUE(reported(d.sheet, "grid-label-no-room", "54 grid lines"));
   ASSERT_EQ(grid.texts.size(), 7U);
   EXPECT_EQ(grid.texts[1].text, "10");
 }

@@ -139,8 +139,8 @@ TEST(Dimensions, NarrowOnesHaveTheirArrowsOutside) {
   EXPECT_EQ(marks_of(d).texts[0].align, Align::start);
 }
 
-TEST(Dimensions, WhatCannotBeMeasuredIsTold) {
-  const auto told = [](const Drawn& d, std::string_view what) {
+TEST(Dimensions, WhatCannotBeMeasuredIsReported) {
+  const auto reported = [](const Drawn& d, std::string_view what) {
     EXPECT_TRUE(marks_of(d).paths.empty());
     for (const Diagnostic& one : d.sheet.diagnostics.kept())
       if (one.code == "dimension-not-drawn" && one.message.find(what) != std::string::npos)
@@ -148,11 +148,12 @@ TEST(Dimensions, WhatCannotBeMeasuredIsTold) {
     return false;
   };
   const std::string side = "from={object=\"base\"}\nto=[0,0,0]\n";
-  EXPECT_TRUE(told(dimensioned("from={object=\"<none>\"}\nto=[0,0,0]\n"), "no object is called"));
-  EXPECT_TRUE(told(dimensioned(side, "direction=\"iso\"\n"), "looks along no axis"));
-  EXPECT_TRUE(told(dimensioned("from=[0,0,0]\nto=[0,\"1m\",0]\n"), "lie on each other"));
-  EXPECT_TRUE(told(dimensioned(side, "eye=[\"9m\",\"-9m\",\"3m\"]\ntarget=[0,0,0]\n"),
-                   "is in perspective"));
+  EXPECT_TRUE(
+      reported(dimensioned("from={object=\"<none>\"}\nto=[0,0,0]\n"), "no object is called"));
+  EXPECT_TRUE(reported(dimensioned(side, "direction=\"iso\"\n"), "looks along no axis"));
+  EXPECT_TRUE(reported(dimensioned("from=[0,0,0]\nto=[0,\"1m\",0]\n"), "lie on each other"));
+  EXPECT_TRUE(reported(dimensioned(side, "eye=[\"9m\",\"-9m\",\"3m\"]\ntarget=[0,0,0]\n"),
+                       "is in perspective"));
 }
 
 TEST(Dimensions, FaultsNameWhatIsMissing) {

@@ -58,7 +58,7 @@ TEST(MatchLines, StandWhereAViewEndsAndAnotherGoesOn) {
   EXPECT_EQ(sheet.diagnostics.count("match-line-nowhere"), 0U);
 }
 
-TEST(MatchLines, AreAskedFor) {
+TEST(MatchLines, AreRequested) {
   for (const PlacedView& view : matched(two_parts("")).views)
     EXPECT_TRUE(view.match_lines.paths.empty());
   const Sheet all = matched(two_parts("") + "[defaults]\nmatch_lines=\"on\"\n");
@@ -96,8 +96,8 @@ TEST(MatchLines, OfSeveralNeighboursOnASideHaveEachItsPart) {
                    .overlaps(box_of(sheet.views[0].match_lines.texts[1])));
 }
 
-TEST(MatchLines, ThatFindNoNeighbourAreToldWhereTheViewAsksForThem) {
-  const auto told = [](const std::string& text) {
+TEST(MatchLines, ThatFindNoNeighbourAreReportedWhereTheViewRequestsThem) {
+  const auto reported = [](const std::string& text) {
     const Sheet sheet = matched(text);
     for (const PlacedView& view : sheet.views) EXPECT_TRUE(view.match_lines.paths.empty());
     std::string all;
@@ -107,21 +107,24 @@ TEST(MatchLines, ThatFindNoNeighbourAreToldWhereTheViewAsksForThem) {
   };
   const std::string on = "match_lines=\"on\"\n";
   const std::string alone = "[[view]]\n" + part_view("A", 120, kHere, kThere, on);
-  EXPECT_NE(told(alone).find("the view 'A' has no match line: its limits end where those of no"),
-            std::string::npos);
-  EXPECT_EQ(told("[defaults]\n" + on + "[[view]]\n" + part_view("A", 120, kHere, kThere)), "");
-  EXPECT_NE(told("[[view]]\nname=\"v\"\n" + on).find("it has no limits"), std::string::npos);
+  EXPECT_NE(
+      reported(alone).find("the view 'A' has no match line: its limits end where those of no"),
+      std::string::npos);
+  EXPECT_EQ(reported("[defaults]\n" + on + "[[view]]\n" + part_view("A", 120, kHere, kThere)), "");
+  EXPECT_NE(reported("[[view]]\nname=\"v\"\n" + on).find("it has no limits"), std::string::npos);
   // Another direction, a gap, and no part of the side in common.
   std::string front = part_view("B", 300, R"("2m",0,0)", R"("6m","2m","2m")");
   front.replace(front.find("top"), 3, "front");
-  EXPECT_NE(told(alone + "[[view]]\n" + front), "");
-  EXPECT_NE(told(alone + "[[view]]\n" + part_view("B", 300, R"("2.1m",0,0)", R"("6m","2m","2m")")),
-            "");
-  EXPECT_NE(told(alone + "[[view]]\n" + part_view("B", 300, R"("2m","2m",0)", R"("6m","3m","2m")")),
-            "");
+  EXPECT_NE(reported(alone + "[[view]]\n" + front), "");
+  EXPECT_NE(
+      reported(alone + "[[view]]\n" + part_view("B", 300, R"("2.1m",0,0)", R"("6m","2m","2m")")),
+      "");
+  EXPECT_NE(
+      reported(alone + "[[view]]\n" + part_view("B", 300, R"("2m","2m",0)", R"("6m","3m","2m")")),
+      "");
   // Nothing of the model comes near to the side.
-  EXPECT_NE(told("[[view]]\n" + part_view("A", 120, kHere, R"("9m","2m","2m")", on) + "[[view]]\n" +
-                 part_view("B", 300, R"("9m",0,0)", R"("12m","2m","2m")"))
+  EXPECT_NE(reported("[[view]]\n" + part_view("A", 120, kHere, R"("9m","2m","2m")", on) +
+                     "[[view]]\n" + part_view("B", 300, R"("9m",0,0)", R"("12m","2m","2m")"))
                 .find("end long before"),
             std::string::npos);
 }

@@ -111,7 +111,7 @@ TEST(Notes, MarksCoverNoLabelsOfTheGrid) {
   EXPECT_EQ(top.grid.circles.size(), 4U);
 }
 
-TEST(Notes, SectionsThatNobodySeesAreToldAndAMarkNeedsOne) {
+TEST(Notes, SectionsThatNobodySeesAreReportedAndAMarkNeedsOne) {
   const auto d = test::drawn(
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nsections=\"y=1m\"\nsection_mark=\"A\"\n");
   ASSERT_TRUE(d);
@@ -123,7 +123,7 @@ TEST(Notes, SectionsThatNobodySeesAreToldAndAMarkNeedsOne) {
             std::string::npos);
 }
 
-TEST(Notes, OneLetterForTwoSectionsIsTold) {
+TEST(Notes, OneLetterForTwoSectionsIsReported) {
   const auto twice = [](const std::string& front, const std::string& left) {
     const Drawn d = with_notes("", "[arrangement.front]\nsections=\"y=1m\"\nsection_mark=\"" +
                                        front + "\"\n[arrangement.left]\nsections=\"x=1m\"\n" +
@@ -134,7 +134,7 @@ TEST(Notes, OneLetterForTwoSectionsIsTold) {
   EXPECT_EQ(twice("A", "B"), 0U);
 }
 
-TEST(Notes, WhatLiesOffThePaperIsTold) {
+TEST(Notes, WhatLiesOffThePaperIsReported) {
   const auto off = [](const std::string& more) {
     return with_notes(more).sheet.diagnostics.count("note-off-the-sheet");
   };
@@ -242,7 +242,7 @@ TEST(Notes, TextsOfTablesStayInTheirCells) {
   EXPECT_EQ(marks.texts[5].text, "short");
 }
 
-TEST(Notes, RowsWithoutRoomAreTold) {
+TEST(Notes, RowsWithoutRoomAreReported) {
   NoteTable table{"T", {"A"}, {{"1"}, {"2"}, {"3"}}, 0};
   table.fit(20);
   EXPECT_EQ(table.rows.size(), 2U);

@@ -139,9 +139,9 @@ TEST(Template, WhatDrawsItselfIsRefused) {
       for (int i = 0; i < length; ++i)
         circle += "\n<g id='c" + std::to_string(i) + "'><g>" +
                   draw("c" + std::to_string((i + 1) % length)) + "</g></g>";
-      const std::string told = fault_of(svg(circle));
-      EXPECT_NE(told.find("is drawn within itself"), std::string::npos) << circle << told;
-      EXPECT_NE(told.find("line " + std::to_string(length + 2)), std::string::npos) << told;
+      const std::string reported = fault_of(svg(circle));
+      EXPECT_NE(reported.find("is drawn within itself"), std::string::npos) << circle << reported;
+      EXPECT_NE(reported.find("line " + std::to_string(length + 2)), std::string::npos) << reported;
       // Without its last link it is a chain.
       EXPECT_EQ(fault_of(svg(circle.substr(0, circle.rfind("<g id=")))), "");
     }
@@ -157,9 +157,9 @@ TEST(Template, WhatDrawsWithoutEndIsRefused) {
   for (const auto& draw : ways_to_draw()) {
     EXPECT_EQ(fault_of(bomb(10, draw)), "");
     for (const int levels : {20, 64, 200}) {
-      const std::string told = fault_of(bomb(levels, draw));
-      EXPECT_NE(told.find("the references draw more than"), std::string::npos) << told;
-      EXPECT_NE(told.find("line "), std::string::npos) << told;
+      const std::string reported = fault_of(bomb(levels, draw));
+      EXPECT_NE(reported.find("the references draw more than"), std::string::npos) << reported;
+      EXPECT_NE(reported.find("line "), std::string::npos) << reported;
     }
   }
   std::string many;

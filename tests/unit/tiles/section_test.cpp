@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A section has the geometry of its objects, to the last bit, however its meshes are packed; what
-// is damaged is told.
+// is damaged is reported.
 #include "tiles/kept/section.hpp"
 
 #include <gtest/gtest.h>
@@ -91,24 +91,24 @@ TEST(Section, has_the_geometry_of_its_objects) {
   }
 }
 
-TEST(Section, tells_of_what_is_damaged) {
+TEST(Section, reports_what_is_damaged) {
   const model::Model model = ship();
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "a.section";
   const Section section = write_section(file, model, some_of(model), {}, 4000).value();
   const std::string bytes = bytes_of(file);
-  const auto told = [&](const std::string& content) {
+  const auto reported = [&](const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;
     model::Model read;
     const Status status = append_section(file, section, read, {});
     return status ? std::string() : status.error().message;
   };
-  EXPECT_EQ(told(bytes), "");
+  EXPECT_EQ(reported(bytes), "");
   for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / 97) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x40);
-    EXPECT_EQ(told(damaged), kLost) << at;
-    EXPECT_EQ(told(bytes.substr(0, at)), kLost) << at;
+    EXPECT_EQ(reported(damaged), kLost) << at;
+    EXPECT_EQ(reported(bytes.substr(0, at)), kLost) << at;
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells fill space, hold what reaches into them, and are as small as asked for where that can be.
+// Cells fill space, hold what reaches into them, and are as small as requested where that can be.
 #include "tiles/split.hpp"
 
 #include <gtest/gtest.h>

@@ -125,10 +125,10 @@ class TiledRun {
   }
 
   /// Cuts the files and writes all tiles.
-  [[nodiscard]] CutRun cut(std::uint64_t most_bytes) const {
+  [[nodiscard]] CutRun cut(std::uint64_t max_bytes) const {
     FileReader reader = this->reader();
     CutRun run = outlined(reader);
-    tiles::cut(run, most_bytes);
+    tiles::cut(run, max_bytes);
     EXPECT_TRUE(write_tiles(run, reader, folder(), tiles_of(run), {}));
     return run;
   }
@@ -204,14 +204,14 @@ void expect_same(const clash::Findings& whole, const clash::Findings& tiled) {
   for (std::size_t t = 0; t < whole.tests.size(); ++t)
     EXPECT_EQ(test::ReportDifference::of(whole.tests[t], tiled.tests[t]), "")
         << whole.tests[t].name;
-  const auto said = [](const clash::Findings& findings) {
+  const auto stated = [](const clash::Findings& findings) {
     const Diagnostics diagnostics = findings.all_diagnostics();
     std::string all;
     for (const Diagnostic& d : diagnostics.kept())
       all += d.code + ": " + d.message + " (" + d.where + ")\n";
     return all;
   };
-  EXPECT_EQ(said(whole), said(tiled));
+  EXPECT_EQ(stated(whole), stated(tiled));
 }
 
 TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
@@ -270,7 +270,7 @@ TEST(TiledClash, reads_several_files_once) {
   EXPECT_EQ(write().error().message, "changed while it was cut");
 }
 
-TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
+TEST(TiledClash, reports_tiles_and_results_that_are_lost) {
   const TiledRun files({3});
   const CutRun run = files.cut(200'000);
   const auto found = files.found(run);

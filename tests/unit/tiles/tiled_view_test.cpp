@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawing by tiles is the drawing of the whole model, to the last bit; what is lost is told.
+// A drawing by tiles is the drawing of the whole model, to the last bit; what is lost is reported.
 #include "tiles/tiled_view.hpp"
 
 #include <gtest/gtest.h>
@@ -46,13 +46,13 @@ class TiledDrawing {
   }
 
   /// Cuts the files and writes all tiles.
-  void cut(CutView& cut, std::uint64_t most_bytes) const {
+  void cut(CutView& cut, std::uint64_t max_bytes) const {
     FileReader reader(files_, io::import_settings_of_environment());
     cut.outline = outline_of(reader, cut.scene, kept_for(cut.view).value(),
                              [](const model::Scene&, std::size_t) { return Status{}; }, {})
                       .value();
     cut.drawn = drawn_of(cut.outline.model);
-    EXPECT_TRUE(cut_view(cut, most_bytes, {}));
+    EXPECT_TRUE(cut_view(cut, max_bytes, {}));
     EXPECT_TRUE(write_view_tiles(cut, reader, folder(), tiles_of(cut), {}));
   }
 
@@ -147,7 +147,7 @@ TEST(TiledView, DrawsShipsOfSharedMeshes) {
   EXPECT_EQ(test::difference(whole, files.by_tiles(cut)), "");
 }
 
-TEST(TiledView, TellsOfTheObjectThatTheEyeLiesIn) {
+TEST(TiledView, ReportsTheObjectThatTheEyeLiesIn) {
   model::Model model;
   model.files.push_back({.label = "boxes", .format = "hand", .unit = "mm", .up_axis = "z"});
   for (int i = 0; i < 60; ++i) {
@@ -173,7 +173,7 @@ TEST(TiledView, TellsOfTheObjectThatTheEyeLiesIn) {
   EXPECT_EQ(test::difference(whole, files.by_tiles(cut)), "");
 }
 
-TEST(TiledView, TellsOfTilesAndResultsThatAreLost) {
+TEST(TiledView, ReportsTilesAndResultsThatAreLost) {
   const TiledDrawing files(corridors());
   CutView cut;
   cut.view.direction = {1, -2, 1};

@@ -74,15 +74,15 @@ TEST(ClashWorkbook, GroupsAndPicturesHaveSheets) {
       clash::group_results(findings, m.model, {.by = clash::GroupBy::element});
   ASSERT_TRUE(grouping);
   ClashContents contents{.findings = findings, .model = m.model, .grouping = &*grouping};
-  std::vector<clash::ResultRef> asked;
+  std::vector<clash::ResultRef> requested;
   contents.picture_of = [&](const clash::ResultRef& r,
                             const parallel::Context&) -> Result<std::string> {
-    asked.push_back(r);
+    requested.push_back(r);
     return r.pair == 2 ? std::string() : tiny_png();
   };
   auto files = test::files_of_zip(written(contents));
   // The worst first; the contact is none of them, and of the other there is no picture.
-  EXPECT_EQ(asked, (std::vector<clash::ResultRef>{{0, 0}, {0, 2}}));
+  EXPECT_EQ(requested, (std::vector<clash::ResultRef>{{0, 0}, {0, 2}}));
   EXPECT_TRUE(has(files["xl/workbook.xml"], "name=\"Pictures\" sheetId=\"3\""));
   EXPECT_TRUE(has(files["xl/workbook.xml"], "name=\"Groups\" sheetId=\"4\""));
   EXPECT_EQ(files["xl/media/image1.png"], tiny_png());

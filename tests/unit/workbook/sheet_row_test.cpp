@@ -56,15 +56,15 @@ TEST(SheetRow, WhatReadersTakeForAnEscapeStaysWhatItIs) {
   EXPECT_EQ(cell("_x0041_ _x00_ _X0041_"), "_x005F_x0041_ _x00_ _X0041_");
 }
 
-TEST(SheetRow, ACellEndsWhereItHasToAndSaysSo) {
-  const std::string most(kMostCellWords, 'x');
+TEST(SheetRow, ACellEndsWhereItHasToAndReportsIt) {
+  const std::string most(kMaxCellWords, 'x');
   EXPECT_EQ(cell(most), most);
   EXPECT_EQ(cell(most + "x"), most.substr(1) + "\xE2\x80\xA6");
   // A character beyond the first plane is two words.
   std::string wide;
   for (int i = 0; i < 20000; ++i) wide += "\xF0\x9F\x9A\xA2";
   const std::string cut = cell(wide);
-  EXPECT_EQ(cut.size(), (kMostCellWords / 2) * 4 + 3);
+  EXPECT_EQ(cut.size(), (kMaxCellWords / 2) * 4 + 3);
   EXPECT_TRUE(cut.ends_with("\xE2\x80\xA6"));
 }
 

@@ -160,10 +160,10 @@ export class Rows {
       }
       return found[object]!;
     };
-    const said = new Map<number, string>();
+    const lowerCase = new Map<number, string>();
     const textOf = (number: number): string => {
-      if (!said.has(number)) said.set(number, shown(results!.texts?.at(number) ?? '').toLowerCase());
-      return said.get(number)!;
+      if (!lowerCase.has(number)) lowerCase.set(number, shown(results!.texts?.at(number) ?? '').toLowerCase());
+      return lowerCase.get(number)!;
     };
     const columns = [results!.comment, results!.assignee, results!.decided_by].filter((column) => column !== undefined);
     return (row) => {

@@ -96,27 +96,27 @@ export class Api {
 
   /** What changed after an event. Throws ApiError. */
   async state(event: number): Promise<ProjectState> {
-    return this.ask(`/api/state?event=${event}`, {});
+    return this.request(`/api/state?event=${event}`, {});
   }
 
   /** Decides about the clashes that are as they were seen. Throws ApiError. */
-  async decide(seen: { run: number; event: number }, keys: string[], decision: Decision): Promise<ProjectState> {
-    return this.ask('/api/decide', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ ...seen, keys, ...decision }) });
+  async decide(known: { run: number; event: number }, keys: string[], decision: Decision): Promise<ProjectState> {
+    return this.request('/api/decide', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ ...known, keys, ...decision }) });
   }
 
-  private async ask(path: string, options: RequestInit): Promise<ProjectState> {
+  private async request(path: string, options: RequestInit): Promise<ProjectState> {
     let answer: Response;
-    let said: unknown;
+    let body: unknown;
     try {
       answer = await fetch(path, { ...options, headers: { ...options.headers, 'Strake-Token': this.token }, credentials: 'omit', redirect: 'error', cache: 'no-store', signal: AbortSignal.timeout(LONGEST_MS) });
       if (answer.status === 403) throw new ApiError('unknown', 'The server does not know this page.');
-      said = await answer.json();
+      body = await answer.json();
     } catch (error) {
       if (error instanceof ApiError) throw error;
       throw new ApiError('silent', '‘strake view’ does not answer.');
     }
-    if (answer.ok || answer.status === 409) return decodeState(said);
-    const { error, mend } = (said ?? {}) as { error?: unknown; mend?: unknown };
+    if (answer.ok || answer.status === 409) return decodeState(body);
+    const { error, mend } = (body ?? {}) as { error?: unknown; mend?: unknown };
     const why = typeof error === 'string' ? error : `The server says ${answer.status}.`;
     throw new ApiError('refused', typeof mend === 'string' && mend !== '' ? `${why} (${mend})` : why);
   }

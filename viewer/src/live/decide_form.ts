@@ -14,7 +14,7 @@ export interface Outcome {
   isBehind: boolean;
 }
 
-const MOST_TOLD = 5;
+const MAX_LISTED = 5;
 type Field = 'status' | 'assignee' | 'comment';
 
 export class DecideForm {
@@ -23,7 +23,7 @@ export class DecideForm {
   private readonly assignee = h('input', { id: 'decide-assignee', type: 'text', autocomplete: 'off', spellcheck: 'false' });
   private readonly comment = h('textarea', { id: 'decide-comment', rows: 2 });
   private readonly hint = h('p', { class: 'hint', id: 'decide-hint' });
-  private readonly told = h('div', { class: 'decide-told', role: 'status' });
+  private readonly message = h('div', { class: 'decide-told', role: 'status' });
   private readonly save = h('button', { type: 'submit', class: 'small primary' }, 'Save');
   private readonly fields = [['status', this.status], ['assignee', this.assignee], ['comment', this.comment]] as const;
   private readonly touched = new Set<Field>();
@@ -40,12 +40,12 @@ export class DecideForm {
     const field = (label: string, control: HTMLElement): HTMLElement => h('div', { class: 'decide-field' }, h('label', { for: control.id }, label), control);
     this.element = h('form', { class: 'decide', 'aria-label': 'Decision', 'aria-describedby': 'decide-hint' },
       field('Status', this.status), field('For', this.assignee), field('Comment', this.comment),
-      h('div', { class: 'buttons' }, this.save, h('span', { class: 'hint' }, `as ${by}`)), this.hint, this.told);
+      h('div', { class: 'buttons' }, this.save, h('span', { class: 'hint' }, `as ${by}`)), this.hint, this.message);
     for (const [name, control] of this.fields) {
       control.addEventListener('input', () => {
         this.touched.add(name);
-        fill(this.told);
-        this.tellHint();
+        fill(this.message);
+        this.updateHint();
       });
     }
     // Letters that are typed here are none of the page's shortcuts.
@@ -64,7 +64,7 @@ export class DecideForm {
   about(rows: ArrayLike<number>): void {
     this.rows = rows;
     this.touched.clear();
-    fill(this.told);
+    fill(this.message);
     this.refresh();
   }
 
@@ -82,7 +82,7 @@ export class DecideForm {
       this[name].value = common ?? '';
       this[name].placeholder = common === undefined ? 'as they are' : '';
     }
-    this.tellHint();
+    this.updateHint();
   }
 
   /** What is to be set: what was touched and is another one now. */
@@ -97,7 +97,7 @@ export class DecideForm {
     return decision;
   }
 
-  private tellHint(): void {
+  private updateHint(): void {
     const { assignee, comment } = this.decision();
     const words = [this.rows.length > 1 && `About ${plural(this.rows.length, 'clash', 'clashes')}.`, assignee === '' && 'Nobody sees to it from now on.', comment === '' && 'The comment is taken back.'];
     this.hint.textContent = words.filter(Boolean).join(' ');
@@ -105,12 +105,12 @@ export class DecideForm {
 
   private async submit(): Promise<void> {
     if (this.busy) {
-      fill(this.told, h('p', {}, 'What was saved before is still on its way: save this in a moment.'));
+      fill(this.message, h('p', {}, 'What was saved before is still on its way: save this in a moment.'));
       return;
     }
     const decision = this.decision();
     if (Object.keys(decision).length === 0) {
-      fill(this.told, h('p', {}, 'Nothing is changed: choose another status, or write something.'));
+      fill(this.message, h('p', {}, 'Nothing is changed: choose another status, or write something.'));
       return;
     }
     this.busy = true;
@@ -119,41 +119,41 @@ export class DecideForm {
     const sent = this.fields.map(([, control]) => control.value);
     try {
       const outcome = await this.decide(rows, decision);
-      if (this.rows === rows) this.tell(outcome, sent);
-      else if (outcome.refused.length > 0) this.tellRefused(outcome, '');
+      if (this.rows === rows) this.showOutcome(outcome, sent);
+      else if (outcome.refused.length > 0) this.showRefused(outcome, '');
     } catch (error) {
       const what = this.rows === rows ? '' : ` for ${rows.length === 1 ? this.nameOf(rows[0]!) : plural(rows.length, 'clash', 'clashes')}, chosen before`;
       // Who does not answer may have taken it all the same.
       const saved = error instanceof ApiError && error.kind === 'silent' ? 'It is not known whether it was saved' : 'Nothing was saved';
-      fill(this.told, h('p', { class: 'note', role: 'alert' }, `${saved}${what}. ${error instanceof Error ? error.message : String(error)}`));
+      fill(this.message, h('p', { class: 'note', role: 'alert' }, `${saved}${what}. ${error instanceof Error ? error.message : String(error)}`));
     }
     this.busy = false;
     this.save.removeAttribute('aria-disabled');
   }
 
   /** Tells what became of a decision about the rows that the form is about; `sent` is what its fields said then. */
-  private tell(outcome: Outcome, sent: readonly string[]): void {
+  private showOutcome(outcome: Outcome, sent: readonly string[]): void {
     const { decided, refused, isBehind } = outcome;
     if (refused.length === 0) {
       // What was written since is still to be saved.
       this.fields.forEach(([name, control], i) => control.value === sent[i] && this.touched.delete(name));
       this.refresh();
-      fill(this.told, h('p', {}, `Saved for ${plural(decided, 'clash', 'clashes')}.`));
+      fill(this.message, h('p', {}, `Saved for ${plural(decided, 'clash', 'clashes')}.`));
       return;
     }
     // Who looks at what it says now, and still means it, saves again.
     this.rows = Uint32Array.from(refused.flatMap((r) => (r.row === undefined ? [] : [r.row])));
     this.refresh();
     const again = isBehind ? ' It shows what they say now; what a later run found is decided about once its results are shown.' : ' It shows what they say now; Save sets it all the same.';
-    this.tellRefused(outcome, this.rows.length > 0 ? again : '');
+    this.showRefused(outcome, this.rows.length > 0 ? again : '');
   }
 
   /** Whoever has gone on to another clash is told, too: what they decided is not saved. */
-  private tellRefused({ decided, refused }: Outcome, again: string): void {
+  private showRefused({ decided, refused }: Outcome, again: string): void {
     const saved = decided > 0 ? `Saved for ${plural(decided, 'clash', 'clashes')}.` : '';
-    fill(this.told,
+    fill(this.message,
       h('div', { class: 'note', role: 'alert' },
         h('p', {}, `${saved} Not saved for ${plural(refused.length, 'clash that', 'clashes that')} changed meanwhile.${again}`.trim()),
-        h('ul', {}, ...refused.slice(0, MOST_TOLD).map((r) => h('li', {}, `${r.what}: ${r.why}`)), refused.length > MOST_TOLD && h('li', {}, `and ${refused.length - MOST_TOLD} more`))));
+        h('ul', {}, ...refused.slice(0, MAX_LISTED).map((r) => h('li', {}, `${r.what}: ${r.why}`)), refused.length > MAX_LISTED && h('li', {}, `and ${refused.length - MAX_LISTED} more`))));
   }
 }

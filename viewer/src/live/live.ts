@@ -24,11 +24,11 @@ export class Live {
   private readonly form: DecideForm | undefined;
   private readonly decisions: Decisions | undefined;
   private readonly api: Api | undefined;
-  private readonly seen: { run: number; event: number };
+  private readonly known: { run: number; event: number };
   private work: Promise<unknown> = Promise.resolve();
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private said = '';
-  private asked = false;
+  private notice = '';
+  private isPolling = false;
 
   /** Undefined for a page that is a file: it asks nobody anything. */
   static of(report: Report, events: LiveEvents): Live | undefined {
@@ -40,12 +40,12 @@ export class Live {
     private readonly events: LiveEvents,
   ) {
     const { run, event, by } = report.head.served!;
-    this.seen = { run, event };
+    this.known = { run, event };
     document.documentElement.classList.add('live');
     if (report.results) this.decisions = new Decisions(report.results);
     const token = takeToken();
     if (token === undefined) {
-      this.say('To set statuses here, open the address that ‘strake view’ printed: it has the token for it.');
+      this.showNotice('To set statuses here, open the address that ‘strake view’ printed: it has the token for it.');
       return;
     }
     this.api = new Api(token);
@@ -89,55 +89,55 @@ export class Live {
 
   private poll(): void {
     clearTimeout(this.timer);
-    if (document.hidden || this.asked) return;
-    this.asked = true;
-    void this.inTurn(async () => this.take(await this.api!.state(this.seen.event))).then(
+    if (document.hidden || this.isPolling) return;
+    this.isPolling = true;
+    void this.inTurn(async () => this.take(await this.api!.state(this.known.event))).then(
       () => this.again(POLL_MS),
       (error: unknown) => {
-        this.sayWhyNot(error);
+        this.showError(error);
         this.again(SLOW_POLL_MS);
       },
     );
   }
 
   private again(after: number): void {
-    this.asked = false;
+    this.isPolling = false;
     this.timer = setTimeout(() => this.poll(), after);
   }
 
   /** One question after another, so that no older answer is taken for a newer one. */
-  private inTurn<T>(ask: () => Promise<T>): Promise<T> {
-    const done = this.work.then(ask);
+  private inTurn<T>(task: () => Promise<T>): Promise<T> {
+    const done = this.work.then(task);
     this.work = done.catch(() => undefined);
     return done;
   }
 
   private take(state: ProjectState): void {
     // What is not told is not seen: it is asked for again, and not decided about, until the page is loaded anew.
-    if (!state.tooMany) this.seen.event = state.event;
+    if (!state.tooMany) this.known.event = state.event;
     const rows = this.decisions?.apply(state.clashes) ?? [];
     if (rows.length > 0) {
       this.form?.refresh();
       this.events.decided(rows);
     }
-    if (state.run !== this.seen.run) this.say(`Run ${state.run} has tested this project since this page was made.`, 'Show its results');
-    else if (state.tooMany) this.say('Much was decided since this page was made.', 'Show it');
-    else this.say('');
+    if (state.run !== this.known.run) this.showNotice(`Run ${state.run} has tested this project since this page was made.`, 'Show its results');
+    else if (state.tooMany) this.showNotice('Much was decided since this page was made.', 'Show it');
+    else this.showNotice('');
   }
 
   private async decide(rows: ArrayLike<number>, decision: Decision): Promise<Outcome> {
     const { key } = this.report.results!;
     const keys = Array.from(rows, (row) => key.at(row));
     // What was seen when somebody pressed Save, whatever is told before it is their turn.
-    const seen = { ...this.seen };
+    const known = { ...this.known };
     return this.inTurn(async () => {
       const outcome: Outcome = { decided: 0, refused: [], isBehind: false };
       for (let from = 0; from < keys.length; from += KEYS_AT_ONCE) {
         const part = keys.slice(from, from + KEYS_AT_ONCE);
-        const state = await this.api!.decide(seen, part, decision);
+        const state = await this.api!.decide(known, part, decision);
         this.take(state);
         outcome.decided += part.length - state.refused.length;
-        outcome.isBehind ||= state.tooMany || state.run !== this.seen.run;
+        outcome.isBehind ||= state.tooMany || state.run !== this.known.run;
         for (const { key: of, why } of state.refused) {
           const row = this.decisions!.row(of);
           outcome.refused.push({ row, what: row === undefined ? of : this.nameOf(row), why: shown(why.replace(/\s+/g, ' ')).slice(0, 300) });
@@ -153,17 +153,17 @@ export class Live {
     return [results!.a, results!.b].map((side) => objectName(objects!, side[row]!).slice(0, 60)).join(' and ');
   }
 
-  private sayWhyNot(error: unknown): void {
+  private showError(error: unknown): void {
     if (!(error instanceof ApiError)) throw error;
-    if (error.kind === 'unknown') this.say('This page is of an earlier ‘strake view’: open the address that the one that runs now has printed.');
-    else if (error.kind === 'silent') this.say(`${error.message} It may have been ended: nothing can be set until it runs again.`);
-    else this.say(error.message);
+    if (error.kind === 'unknown') this.showNotice('This page is of an earlier ‘strake view’: open the address that the one that runs now has printed.');
+    else if (error.kind === 'silent') this.showNotice(`${error.message} It may have been ended: nothing can be set until it runs again.`);
+    else this.showNotice(error.message);
   }
 
   /** Says something above all, once; with a button that loads the page anew. */
-  private say(words: string, button?: string): void {
-    if (this.said === words) return;
-    this.said = words;
+  private showNotice(words: string, button?: string): void {
+    if (this.notice === words) return;
+    this.notice = words;
     fill(this.bar, words !== '' && h('p', {}, words), button !== undefined && h('button', { type: 'button', class: 'small', onclick: () => location.reload() }, button));
   }
 }

@@ -13,12 +13,12 @@ export interface MarkEvents {
 
 export class Marks {
   readonly bar = h('div', { class: 'marks buttons', role: 'group', 'aria-label': 'Marked clashes' });
-  private readonly told = h('span', { role: 'status', class: 'marks-told' });
+  private readonly status = h('span', { role: 'status', class: 'marks-told' });
   private readonly marked = new Set<number>();
   private last = -1;
 
   constructor(private readonly events: MarkEvents) {
-    this.tell();
+    this.updateStatus();
   }
 
   /** A cell with the mark of its row before what it says. */
@@ -42,7 +42,7 @@ export class Marks {
 
   clear(): void {
     this.marked.clear();
-    this.tell();
+    this.updateStatus();
     this.events.changed();
   }
 
@@ -51,7 +51,7 @@ export class Marks {
       if (on) this.marked.add(row);
       else this.marked.delete(row);
     }
-    this.tell();
+    this.updateStatus();
     this.events.changed();
   }
 
@@ -62,9 +62,9 @@ export class Marks {
     this.set(from < 0 ? [row] : rows.subarray(Math.min(from, to), Math.max(from, to) + 1), on);
   }
 
-  private tell(): void {
+  private updateStatus(): void {
     const count = this.marked.size;
-    this.told.textContent = count === 0 ? '' : `${plural(count, 'clash', 'clashes')} marked`;
+    this.status.textContent = count === 0 ? '' : `${plural(count, 'clash', 'clashes')} marked`;
     const button = (label: string, title: string, act: () => void): HTMLElement => h('button', { type: 'button', class: 'small', title, onclick: act }, label);
     const focused = this.bar.contains(document.activeElement) ? document.activeElement!.textContent : undefined;
     fill(
@@ -72,7 +72,7 @@ export class Marks {
       button('Mark all', 'Mark all clashes that the list shows', () => this.set(this.events.shown(), true)),
       count > 0 && button('Mark none', 'Take all marks away', () => this.clear()),
       count > 0 && button('Decide', 'Decide about the marked clashes', () => this.events.decide(Uint32Array.from(this.marked).sort())),
-      this.told,
+      this.status,
     );
     if (focused !== undefined) ([...this.bar.querySelectorAll('button')].find((b) => b.textContent === focused) ?? this.bar.querySelector('button'))?.focus();
   }

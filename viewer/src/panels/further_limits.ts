@@ -44,7 +44,7 @@ export class FurtherLimits {
   }
 
   /** Shows the limits of a filter, which the fields set from now on. */
-  tell(filter: Filter): void {
+  update(filter: Filter): void {
     this.filter = filter;
     this.sides.forEach((field, side) => (field.value = String(filter.cell[side] ?? '')));
     this.depths.forEach((field, end) => (field.value = filter.d[end] === undefined ? '' : String(filter.d[end])));

@@ -85,7 +85,7 @@ export class ListPanel {
       }, report.head.counts.results > 100000 ? 250 : 80);
     });
     this.further = new FurtherLimits(report, () => this.update());
-    this.further.tell(this.filter);
+    this.further.update(this.filter);
     this.makeBar();
     fill(this.holder, this.table.element);
     this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, h('div', { class: 'list-foot' }, this.counted, this.further.element), marks?.bar), this.holder);
@@ -97,7 +97,7 @@ export class ListPanel {
     this.search.value = this.filter.text;
     this.groupsShown = false;
     this.makeBar();
-    this.further.tell(this.filter);
+    this.further.update(this.filter);
     this.update();
   }
 
@@ -107,13 +107,13 @@ export class ListPanel {
     this.table.show(rows as Uint32Array<ArrayBuffer>, this.current);
     this.makePills();
     fill(this.holder, this.groupsShown && this.groupTable ? this.groupTable.element : this.table.element);
-    this.tellShown(rows.length);
+    this.updateCount(rows.length);
   }
 
   /** Says how much is listed, and lists the groups where these are looked at. */
-  private tellShown(results: number): void {
+  private updateCount(results: number): void {
     if (this.groupsShown) this.updateGroups(results);
-    else this.say(results, this.report.head.counts.results, 'result');
+    else this.setCount(results, this.report.head.counts.results, 'result');
   }
 
   /** What is listed now. */
@@ -146,11 +146,11 @@ export class ListPanel {
     else if (kept.length === shown.length) this.refresh();
     else {
       this.table.keep(kept);
-      this.tellShown(kept.length);
+      this.updateCount(kept.length);
     }
   }
 
-  private say(shownRows: number, all: number, what: string): void {
+  private setCount(shownRows: number, all: number, what: string): void {
     this.counted.textContent = shownRows === all ? plural(all, what) : `${count(shownRows)} of ${plural(all, what)}`;
   }
 
@@ -164,7 +164,7 @@ export class ListPanel {
     const { list, counts } = filterGroups(this.rows, this.filter);
     this.groupCounts = counts;
     this.groupTable!.show(sortGroups(this.report, list, counts, this.groupSort.column, this.groupSort.down) as Uint32Array<ArrayBuffer>, -1);
-    this.say(list.length, this.report.groups!.count, 'group');
+    this.setCount(list.length, this.report.groups!.count, 'group');
     if (counts.limited) this.counted.append(`, by ${plural(results, 'result')}`);
   }
 
@@ -220,7 +220,7 @@ export class ListPanel {
     const pill = (label: string, clear: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'pill', title: 'Take this limit away', onclick: () => {
         clear();
-        this.further.tell(filter);
+        this.further.update(filter);
         this.update();
       } }, label, h('span', { 'aria-hidden': 'true' }, ' ✕'));
     const list: HTMLElement[] = this.further.pills(filter).map(([label, clear]) => pill(label, clear));

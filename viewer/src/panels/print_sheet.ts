@@ -7,7 +7,7 @@ import { NONE8 } from '../payload/payload.ts';
 import { h } from '../ui/dom.ts';
 
 // Some forty pages; more is for a program, not for paper.
-const MOST_ROWS = 2000;
+const MAX_ROWS = 2000;
 
 /** What is listed: rows of results, or groups with what the limits leave of them. */
 export interface Listed {
@@ -30,8 +30,8 @@ export function printSheet(report: Report, listed: Listed, chosen: HTMLElement |
   );
 }
 
-function told(listed: number, all: number, what: string): HTMLElement {
-  return h('p', {}, `${count(listed)} of ${plural(all, what)} ${listed === 1 ? 'is' : 'are'} in the list${listed > MOST_ROWS ? `; the first ${count(MOST_ROWS)} are printed` : ''}.`);
+function countLine(listed: number, all: number, what: string): HTMLElement {
+  return h('p', {}, `${count(listed)} of ${plural(all, what)} ${listed === 1 ? 'is' : 'are'} in the list${listed > MAX_ROWS ? `; the first ${count(MAX_ROWS)} are printed` : ''}.`);
 }
 
 /** Heads that begin with > stand over numbers. */
@@ -47,8 +47,8 @@ function resultTable(report: Report, rows: Uint32Array): HTMLElement[] {
   const objects = report.objects!;
   const status = !!results.status;
   return [
-    told(rows.length, results.count, 'result'),
-    table(['Class', '>d mm', 'Object A', 'Object B', '>x mm', '>y mm', '>z mm', ...(status ? ['Status'] : [])], Array.from(rows.subarray(0, MOST_ROWS), (r) => {
+    countLine(rows.length, results.count, 'result'),
+    table(['Class', '>d mm', 'Object A', 'Object B', '>x mm', '>y mm', '>z mm', ...(status ? ['Status'] : [])], Array.from(rows.subarray(0, MAX_ROWS), (r) => {
       const s = results.status?.[r] ?? NONE8;
       return h('tr', {},
         h('td', {}, CLASS_WORDS[results.class[r]!]!), right(length(results.d[r]!)),
@@ -62,8 +62,8 @@ function resultTable(report: Report, rows: Uint32Array): HTMLElement[] {
 function groupTable(report: Report, { list, counts }: { list: Uint32Array; counts: GroupCounts }): HTMLElement[] {
   const groups = report.groups!;
   return [
-    told(list.length, groups.count, 'group'),
-    table(['Worst', '>d mm', 'Group', '>Results', '>Hits', '>Too close', '>Contacts'], Array.from(list.subarray(0, MOST_ROWS), (g) =>
+    countLine(list.length, groups.count, 'group'),
+    table(['Worst', '>d mm', 'Group', '>Results', '>Hits', '>Too close', '>Contacts'], Array.from(list.subarray(0, MAX_ROWS), (g) =>
       h('tr', {},
         h('td', {}, CLASS_WORDS[counts.class[g]!]!), right(length(counts.d[g]!)), h('td', {}, shown(groups.name.at(g)).slice(0, 200)),
         right(counts.limited ? `${count(counts.results[g]!)} of ${count(groups.results[g]!)}` : count(counts.results[g]!)),

@@ -35,9 +35,9 @@ export class ScenePanel {
   private readonly canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The model. Arrow keys turn it, with Shift they move it, plus and minus bring it nearer and farther, Enter picks what is in the middle.' });
   /** where Enter picks, as long as the keys are in the model */
   private readonly cross = h('div', { class: 'cross', 'aria-hidden': 'true' });
-  private readonly said = h('div', { class: 'unseen', role: 'status' });
+  private readonly picked = h('div', { class: 'unseen', role: 'status' });
   private readonly label = h('div', { class: 'depth-label', hidden: true });
-  private readonly told = h('div', { class: 'stage-note', role: 'status' });
+  private readonly note = h('div', { class: 'stage-note', role: 'status' });
   private readonly legend = h('div', { class: 'legend-pair', hidden: true });
   private readonly measured = h('div', { class: 'measure', role: 'status', hidden: true });
   private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45 });
@@ -53,7 +53,7 @@ export class ScenePanel {
     private readonly report: Report,
     private readonly events: SceneEvents,
   ) {
-    this.stage.append(this.canvas, this.cross, this.label, this.legend, this.sectionTools, this.measured, this.told, this.said);
+    this.stage.append(this.canvas, this.cross, this.label, this.legend, this.sectionTools, this.measured, this.note, this.picked);
     this.element.append(this.tools(), this.stage);
     this.sectionSize.addEventListener('input', () => this.placeSection());
     this.canvas.addEventListener('keydown', (event) => this.key(event));
@@ -66,28 +66,28 @@ export class ScenePanel {
   /** Reads the model and draws it; what goes wrong is told where the picture would be. */
   async open(): Promise<void> {
     const { head } = this.report;
-    if (!head.scene) return this.tellWithout(...withoutModel(head));
-    this.tell('Opening the model…');
+    if (!head.scene) return this.showWithout(...withoutModel(head));
+    this.showNote('Opening the model…');
     // The list is drawn before the model is unpacked.
     await new Promise((done) => setTimeout(done, 0));
     try {
       const model = await openModel(head);
       this.view = new View(this.canvas, model!, head.scene, head.counts.objects, {
         picked: (object) => this.events.picked(object),
-        measured: (points) => this.tellMeasured(points),
+        measured: (points) => this.showMeasured(points),
         drawn: () => this.placeLabel(),
-        lost: (lost) => this.tellLost(lost),
+        lost: (lost) => this.showLost(lost),
       });
     } catch (error) {
       const words = error instanceof Error ? error.message : String(error);
-      if (/webgl/i.test(words)) return this.tellWithout('This browser cannot show 3D: it has no WebGL 2, or it is switched off. The lists and drawings work without it.', 'Another browser may show it, or this one where “hardware acceleration” is on in its settings.');
-      return this.tellWithout(`The model cannot be shown. ${words}`, 'Copy the file again, or write it anew.');
+      if (/webgl/i.test(words)) return this.showWithout('This browser cannot show 3D: it has no WebGL 2, or it is switched off. The lists and drawings work without it.', 'Another browser may show it, or this one where “hardware acceleration” is on in its settings.');
+      return this.showWithout(`The model cannot be shown. ${words}`, 'Copy the file again, or write it anew.');
     }
     this.element.classList.add('ready');
-    this.told.hidden = true;
+    this.note.hidden = true;
     this.theme();
     this.view.fit();
-    if (this.view.items.count === 0) this.tell('Nothing of this model has a shape.');
+    if (this.view.items.count === 0) this.showNote('Nothing of this model has a shape.');
     this.wanted?.();
   }
 
@@ -103,9 +103,9 @@ export class ScenePanel {
     const shown = shownOf(this.report, row);
     this.view.show(shown, fly);
     const missing = [shown.a, shown.b].filter((o) => !this.view!.has(o));
-    this.tellLegend(shown.a, shown.b);
-    if (missing.length > 0) this.tell(missing.length === 2 ? 'Neither of the two has a shape in this page.' : 'One of the two has no shape in this page.');
-    else this.told.hidden = true;
+    this.showLegend(shown.a, shown.b);
+    if (missing.length > 0) this.showNote(missing.length === 2 ? 'Neither of the two has a shape in this page.' : 'One of the two has no shape in this page.');
+    else this.note.hidden = true;
     this.placeLabel();
   }
 
@@ -114,8 +114,8 @@ export class ScenePanel {
     this.wanted = () => this.showObject(object, fly);
     this.view?.showObject(object, fly);
     this.legend.hidden = true;
-    this.told.hidden = this.ready;
-    this.said.textContent = `Picked: ${objectName(this.report.objects!, object).slice(0, 200)}`;
+    this.note.hidden = this.ready;
+    this.picked.textContent = `Picked: ${objectName(this.report.objects!, object).slice(0, 200)}`;
   }
 
   showNothing(): void {
@@ -123,7 +123,7 @@ export class ScenePanel {
     this.wanted = undefined;
     this.view?.show(undefined, false);
     this.legend.hidden = true;
-    this.told.hidden = this.ready;
+    this.note.hidden = this.ready;
   }
 
   /** Shows a place, with a result that stands for those there. */
@@ -154,7 +154,7 @@ export class ScenePanel {
     const { view } = this;
     if (!view) return false;
     const sides = { 1: 'top', 2: 'front', 3: 'side', 4: 'iso' } as const;
-    if (key in sides) view.look(sides[key as unknown as 1]);
+    if (key in sides) view.viewFrom(sides[key as unknown as 1]);
     else if (key === 'f') view.fit();
     else if (key === 'g') this.setOthers(OTHERS[(OTHERS.findIndex(([o]) => o === view.others) + 1) % OTHERS.length]![0]);
     else if (key === 'b') this.sectionButton?.click();
@@ -181,7 +181,7 @@ export class ScenePanel {
       if (!this.view) return;
       this.view.measuring = on;
       this.canvas.classList.toggle('measuring', on);
-      if (on) this.tellMeasured([]);
+      if (on) this.showMeasured([]);
       else this.view.clearMeasure();
       this.measured.hidden = !on;
     }, { title: 'The distance of two points (M)', class: 'small' });
@@ -191,10 +191,10 @@ export class ScenePanel {
       this.report.results && tool('Clash', 'Fly to the clash (Enter)', () => this.fly()),
       tool('All', 'The whole model (F)', () => this.view?.fit()),
       h('span', { class: 'gap' }),
-      tool('Top', 'From the top (1)', () => this.view?.look('top')),
-      tool('Front', 'From the front (2)', () => this.view?.look('front')),
-      tool('Side', 'From the side (3)', () => this.view?.look('side')),
-      tool('Iso', 'Askew (4)', () => this.view?.look('iso')),
+      tool('Top', 'From the top (1)', () => this.view?.viewFrom('top')),
+      tool('Front', 'From the front (2)', () => this.view?.viewFrom('front')),
+      tool('Side', 'From the side (3)', () => this.view?.viewFrom('side')),
+      tool('Iso', 'Askew (4)', () => this.view?.viewFrom('iso')),
       h('span', { class: 'gap' }),
       h('div', { class: 'segments', role: 'group', 'aria-label': 'Other objects', title: 'Other objects (G)' }, ...this.othersButtons),
       this.sectionButton,
@@ -212,32 +212,32 @@ export class ScenePanel {
     this.view?.section(this.sectionTools.hidden ? undefined : 50 * 400 ** (Number(this.sectionSize.value) / 100));
   }
 
-  private tell(text: string): void {
-    this.told.hidden = false;
-    fill(this.told, text);
+  private showNote(text: string): void {
+    this.note.hidden = false;
+    fill(this.note, text);
   }
 
   /** Says why there is no picture, and what helps. */
-  private tellWithout(why: string, remedy: string | undefined): void {
+  private showWithout(why: string, remedy: string | undefined): void {
     this.element.classList.add('without');
-    this.told.hidden = false;
-    fill(this.told, h('p', {}, why), remedy !== undefined && h('p', { class: 'hint' }, remedy));
+    this.note.hidden = false;
+    fill(this.note, h('p', {}, why), remedy !== undefined && h('p', { class: 'hint' }, remedy));
   }
 
-  private tellLost(lost: boolean): void {
+  private showLost(lost: boolean): void {
     this.element.classList.toggle('lost', lost);
-    if (lost) this.tell('The graphics card stopped drawing. The picture comes back by itself as soon as the card does; if it does not, open the page again. The lists go on.');
-    else this.told.hidden = true;
+    if (lost) this.showNote('The graphics card stopped drawing. The picture comes back by itself as soon as the card does; if it does not, open the page again. The lists go on.');
+    else this.note.hidden = true;
   }
 
-  private tellLegend(a: number, b: number): void {
+  private showLegend(a: number, b: number): void {
     const objects = this.report.objects!;
     this.legend.hidden = false;
     fill(this.legend,
       ...([['a', a], ['b', b]] as const).map(([side, object]) => h('div', {}, h('span', { class: `swatch swatch-${side}`, 'aria-hidden': 'true' }), ` ${side.toUpperCase()} `, objectName(objects, object).slice(0, 120))));
   }
 
-  private tellMeasured(points: Vec[]): void {
+  private showMeasured(points: Vec[]): void {
     if (points.length < 2) {
       fill(this.measured, `${points.length === 0 ? 'Click the first point' : 'Click the second point'}, or bring it to the middle and press Enter.`);
       return;

@@ -5,7 +5,7 @@ import { PerspectiveCamera, Vector3 } from 'three';
 export type Side = 'top' | 'front' | 'side' | 'iso';
 
 /** The direction in which one looks, z up. A plan looks down, but for a trifle that keeps north up. */
-export const LOOKS: Record<Side, readonly [number, number, number]> = {
+export const VIEW_DIRECTIONS: Record<Side, readonly [number, number, number]> = {
   top: [0, 0.0005, -1],
   front: [0, 1, 0],
   side: [-1, 0, 0],

@@ -128,7 +128,7 @@ export function lineEnds(mesh: Mesh): Uint32Array<ArrayBuffer> {
   return ends;
 }
 
-const MOST_PIECES = 64;
+const MAX_PIECES = 64;
 
 /** The ends of the lines of a mesh, as points, in pieces no longer than a length (or as many as are of use). */
 export function linePieces(mesh: Mesh, longest: number): Float32Array<ArrayBuffer> {
@@ -137,7 +137,7 @@ export function linePieces(mesh: Mesh, longest: number): Float32Array<ArrayBuffe
   for (let i = 0; i < ends.length; i += 2) {
     const at = (end: number, k: number): number => mesh.position[3 * ends[i + end]! + k]!;
     const length = Math.hypot(at(1, 0) - at(0, 0), at(1, 1) - at(0, 1), at(1, 2) - at(0, 2));
-    const pieces = Math.min(MOST_PIECES, Math.max(1, Math.ceil(length / longest)));
+    const pieces = Math.min(MAX_PIECES, Math.max(1, Math.ceil(length / longest)));
     for (let piece = 0; piece < pieces; ++piece) {
       for (const step of [piece, piece + 1]) for (let k = 0; k < 3; ++k) out.push(at(0, k) + ((at(1, k) - at(0, k)) * step) / pieces);
     }

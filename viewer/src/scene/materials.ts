@@ -54,7 +54,7 @@ uniform ivec2 apart;
 flat out vec3 shade;
 #endif
 out vec3 place;
-out vec3 seen;
+out vec3 viewPosition;
 void main() {
 #ifdef INSTANCED
   vec4 p = vec4(position, 1.0);
@@ -63,7 +63,7 @@ void main() {
   place = position;
 #endif
   vec4 view = viewMatrix * vec4(place, 1.0);
-  seen = view.xyz;
+  viewPosition = view.xyz;
   gl_Position = projectionMatrix * view;
 #ifndef ONE_COLOUR
   shade = texelFetch(states, ivec2(int(object % ${STATES_IN_ROW}u), int(object / ${STATES_IN_ROW}u)), 0).rgb;
@@ -84,7 +84,7 @@ uniform float fade;
 flat in vec3 shade;
 #endif
 in vec3 place;
-in vec3 seen;
+in vec3 viewPosition;
 out vec4 colour;
 void main() {
   if (any(lessThan(place, sectionMin)) || any(greaterThan(place, sectionMax))) discard;
@@ -106,8 +106,8 @@ void main() {
 #endif
   return;
 #endif
-  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-  float facing = abs(dot(normal, normalize(seen)));
+  vec3 normal = normalize(cross(dFdx(viewPosition), dFdy(viewPosition)));
+  float facing = abs(dot(normal, normalize(viewPosition)));
   float light = 0.66 + 0.28 * facing + 0.1 * normal.y;
 #ifdef GHOST
   // Seen edge-on a ghost is denser, so that its outline shows.

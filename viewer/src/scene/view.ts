@@ -9,7 +9,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { SceneHead } from '../payload/head.ts';
 import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
-import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
+import { distanceFor, distanceForBox, VIEW_DIRECTIONS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
 import { sharpEdges } from './edges.ts';
 import { type Items, isLine, itemsOf, linePieces, makeItems, meshOf, objectBox, type Vec } from './items.ts';
@@ -49,7 +49,7 @@ const FAR = 1e12;
 // How long the rest of a picture waits in software.
 const BREATH_MS = 120;
 // Of finer objects the outline takes longer than a click may, and shows less.
-const MOST_OUTLINED = 60000;
+const MAX_OUTLINED = 60000;
 // A line is thinner than a finger.
 const PIXELS_BESIDE = 5;
 
@@ -155,7 +155,7 @@ export class View {
     this.listen();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
-    this.look('iso');
+    this.viewFrom('iso');
   }
 
   /** Colours of what is behind, of ghosts and of what is measured, for light or dark. */
@@ -229,8 +229,8 @@ export class View {
     this.stand([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, Math.max(100, distanceForBox(this.camera, size)));
   }
 
-  look(side: Side): void {
-    const direction = new Vector3(...LOOKS[side]).normalize();
+  viewFrom(side: Side): void {
+    const direction = new Vector3(...VIEW_DIRECTIONS[side]).normalize();
     const away = this.camera.position.distanceTo(this.controls.target) || distanceFor(this.camera, this.reach / 5);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, -away);
     this.camera.lookAt(this.controls.target);
@@ -351,7 +351,7 @@ export class View {
       const behind = new Mesh(geometry, paint.behind);
       behind.frustumCulled = false;
       this.hiddenPair.add(behind);
-      if (mesh.index.length < MOST_OUTLINED) {
+      if (mesh.index.length < MAX_OUTLINED) {
         const outline = new BufferGeometry();
         outline.setAttribute('position', new BufferAttribute(sharpEdges(mesh, 30), 3));
         const rim = new LineSegments(outline, paint.rim);

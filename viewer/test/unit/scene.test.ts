@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { distanceForBox, LOOKS, makeCamera } from '../../src/scene/camera.ts';
+import { distanceForBox, VIEW_DIRECTIONS, makeCamera } from '../../src/scene/camera.ts';
 import { BufferAttribute, BufferGeometry, EdgesGeometry, Vector3 } from 'three';
 import { distanceTo, LINES, makeBatches } from '../../src/scene/batches.ts';
 import { sharpEdges } from '../../src/scene/edges.ts';
@@ -121,13 +121,13 @@ test('lines are told from triangles, drawn by their ends and picked from beside 
 
 test('a box fits into the picture, from every side and in every form', () => {
   for (const size of [[30000, 8000, 12000], [10, 20000, 10], [500, 500, 500]] as Vec[]) {
-    for (const look of Object.values(LOOKS)) {
+    for (const view of Object.values(VIEW_DIRECTIONS)) {
       for (const aspect of [0.6, 1, 2.2]) {
         const camera = makeCamera();
         camera.aspect = aspect;
         camera.far = 1e7;
         camera.updateProjectionMatrix();
-        camera.lookAt(new Vector3(...look));
+        camera.lookAt(new Vector3(...view));
         const direction = camera.getWorldDirection(new Vector3());
         camera.position.copy(direction).multiplyScalar(-distanceForBox(camera, new Vector3(...size)));
         camera.updateMatrixWorld();
@@ -136,7 +136,7 @@ test('a box fits into the picture, from every side and in every form', () => {
           const p = new Vector3(...(size.map((v, k) => ((i >> k) & 1 ? v : -v) / 2) as Vec)).project(camera);
           most = Math.max(most, Math.abs(p.x), Math.abs(p.y));
         }
-        assert.ok(most < 1 && most > 0.85, `${size} ${look} ${aspect}: ${most}`);
+        assert.ok(most < 1 && most > 0.85, `${size} ${view} ${aspect}: ${most}`);
       }
     }
   }

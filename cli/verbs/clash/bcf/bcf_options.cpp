@@ -21,7 +21,7 @@ namespace {
 /// Returns the first option of the command line that is about BCF; null where there is none.
 const char* first_given(const BcfInput& input) {
   if (!input.version.empty()) return "--bcf-version";
-  if (!input.most.empty()) return "--bcf-most";
+  if (!input.max_topics.empty()) return "--bcf-most";
   if (!input.date.empty()) return "--bcf-date";
   if (!input.author.empty()) return "--bcf-author";
   if (input.history) return "--bcf-history";
@@ -41,10 +41,10 @@ void add_bcf_options(CLI::App& command, BcfInput& options) {
              "Version of .bcf (default 2.1, which most programs read)")
       ->group(kGroup);
   command
-      .add_option("--bcf-most", options.most,
+      .add_option("--bcf-most", options.max_topics,
                   fmt::format("Most topics of .bcf: the first groups, or the worst results "
                               "(default {})",
-                              report::BcfForm{}.most))
+                              report::BcfForm{}.max_topics))
       ->type_name("N")
       ->group(kGroup);
   command
@@ -75,11 +75,11 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
     return Error{ErrorCode::usage, "no .bcf is written", option, "add -o FILE.bcf"};
   form.version_3 = input.version == "3.0";
   form.contacts = input.contacts;
-  if (!input.most.empty()) {
-    std::uint64_t most = 0;
-    if (const Status status = whole_number(most, input.most, "--bcf-most"); !status)
+  if (!input.max_topics.empty()) {
+    std::uint64_t max_topics = 0;
+    if (const Status status = whole_number(max_topics, input.max_topics, "--bcf-most"); !status)
       return status.error();
-    form.most = static_cast<std::size_t>(most);
+    form.max_topics = static_cast<std::size_t>(max_topics);
   }
   if (!input.date.empty()) {
     const Result<std::string> date = publish::bcf_date(input.date);
@@ -96,7 +96,7 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
 
 project::RunComments comments_of_run(const BcfInput& input, bool is_written) {
   if (!is_written) return project::RunComments::none;
-  return input.history ? project::RunComments::with_history : project::RunComments::said;
+  return input.history ? project::RunComments::with_history : project::RunComments::all_comments;
 }
 
 bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }

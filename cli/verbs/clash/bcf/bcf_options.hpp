@@ -18,7 +18,7 @@ class ProjectClashes;
 
 /// What is said of BCF on the command line, as written.
 struct BcfInput {
-  std::string version, most, date, author;
+  std::string version, max_topics, date, author;
   bool contacts = false, history = false;
 };
 
@@ -31,7 +31,7 @@ void add_bcf_options(CLI::App& command, BcfInput& options);
 /// Returns what a run of a project tells of what people said.
 [[nodiscard]] project::RunComments comments_of_run(const BcfInput& input, bool is_written);
 
-/// Whether the name of a file asks for BCF.
+/// Whether the name of a file requests BCF.
 [[nodiscard]] bool is_bcf(const std::string& file);
 
 /// Prints what a file does not have, if it is BCF, its date included.

@@ -27,7 +27,7 @@ namespace strake::cli {
 
 namespace {
 
-constexpr std::size_t kMostTopicsNamed = 10, kLongTopicName = 80;
+constexpr std::size_t kMaxTopicsNamed = 10, kLongTopicName = 80;
 
 /// Topics of a file, with what is to be told about them.
 struct MatchedTopics {
@@ -91,9 +91,9 @@ class TopicMatcher {
 
   void set_status(project::ReviewedTopic& reviewed, const bcf::ReadTopic& topic) {
     if (topic.status.empty()) return;
-    const std::optional<bcf::ParsedStatus> said = bcf::parse_topic_status(topic.status);
-    if (said)
-      reviewed.status = {bcf::decided_status(*said), *said == bcf::ParsedStatus::open};
+    const std::optional<bcf::ParsedStatus> parsed = bcf::parse_topic_status(topic.status);
+    if (parsed)
+      reviewed.status = {bcf::decided_status(*parsed), *parsed == bcf::ParsedStatus::open};
     else
       ++matched_.strange_words[bcf::short_name(topic.status, kLongTopicName)];
   }
@@ -106,7 +106,7 @@ class TopicMatcher {
 
 /// Prints the first of some texts, and how many more there are.
 void list(Console& console, const std::vector<std::string>& texts) {
-  const std::size_t shown = std::min(texts.size(), kMostTopicsNamed);
+  const std::size_t shown = std::min(texts.size(), kMaxTopicsNamed);
   for (std::size_t i = 0; i < shown; ++i) console.note("  " + texts[i]);
   if (shown < texts.size()) console.note(fmt::format("  and {} more", texts.size() - shown));
 }

@@ -15,10 +15,11 @@ namespace {
 
 Result<pictures::FolderOptions> folder_options(const PictureInput& given) {
   pictures::FolderOptions options;
-  std::uint64_t most = options.most;
-  if (const Status status = whole_number(most, given.most, "--top-pictures"); !status)
+  std::uint64_t max_pictures = options.max_pictures;
+  if (const Status status = whole_number(max_pictures, given.max_pictures, "--top-pictures");
+      !status)
     return status.error();
-  options.most = most;
+  options.max_pictures = max_pictures;
   if (given.format == "png") options.format = pictures::PictureFormat::png;
   return options;
 }
@@ -35,8 +36,8 @@ void add_picture_options(CLI::App& command, PictureInput& options) {
           ->type_name("FOLDER")
           ->group("Result");
   command
-      .add_option("--top-pictures", options.most,
-                  fmt::format("Most pictures, of the worst (default {})", defaults.most))
+      .add_option("--top-pictures", options.max_pictures,
+                  fmt::format("Most pictures, of the worst (default {})", defaults.max_pictures))
       ->type_name("N")
       ->needs(folder)
       ->group("Result");
@@ -60,11 +61,11 @@ Status write_pictures(Session& session, const PictureInput& given,
   const auto count =
       pictures::write_picture_folder(contents, given.folder, *options, session.context());
   if (!count) return count.error();
-  std::string told = fmt::format("wrote {}: {}", given.folder, counted(count->drawn, "picture"));
+  std::string summary = fmt::format("wrote {}: {}", given.folder, counted(count->drawn, "picture"));
   if (count->left_out > 0)
-    told += fmt::format(", {} more left out (--top-pictures)", count->left_out);
-  if (count->cut_open > 0) told += fmt::format(", {} cut open", count->cut_open);
-  session.console().note(told);
+    summary += fmt::format(", {} more left out (--top-pictures)", count->left_out);
+  if (count->cut_open > 0) summary += fmt::format(", {} cut open", count->cut_open);
+  session.console().note(summary);
   return {};
 }
 

@@ -16,7 +16,7 @@ namespace strake::cli {
 
 /// As written.
 struct PictureInput {
-  std::string folder, most, format;
+  std::string folder, max_pictures, format;
 };
 
 void add_picture_options(CLI::App& command, PictureInput& options);
@@ -25,7 +25,7 @@ void add_picture_options(CLI::App& command, PictureInput& options);
 /// folder that holds something else.
 [[nodiscard]] Status check_pictures(const PictureInput& given);
 
-/// Writes the folder where one is asked for, and tells how many pictures there are and how many are
+/// Writes the folder where one is requested, and tells how many pictures there are and how many are
 /// left out.
 [[nodiscard]] Status write_pictures(Session& session, const PictureInput& given,
                                     const report::ClashContents& contents);

@@ -27,7 +27,7 @@ Result<StyleRule> read_style(const std::string& text) {
 }  // namespace
 
 Result<std::vector<StyleRule>> parse_styles(const std::vector<std::string>& texts) {
-  if (texts.size() > drawing::kMostObjectStyles)
+  if (texts.size() > drawing::kMaxObjectStyles)
     return Error{ErrorCode::usage, fmt::format("{} styles are more than 1000", texts.size()),
                  "--style", "give those that are seen"};
   std::vector<StyleRule> rules;

@@ -13,9 +13,9 @@ from strake.importers.ifc.units import MEASURES, Units
 from strake.importers.scene_writer import encoded
 
 _OWN = ("PredefinedType", "ObjectType", "Tag", "Description", "LongName")
-_MOST_DEPTH = 3
+_MAX_DEPTH = 3
 # So many sets are kept, for products that share one; most sets are of one product.
-_MOST_SETS = 10_000
+_MAX_SETS = 10_000
 _QUANTITIES = {
     "IfcQuantityLength": ("LengthValue", "LENGTHUNIT"),
     "IfcQuantityArea": ("AreaValue", "AREAUNIT"),
@@ -87,7 +87,7 @@ class AttributeReader:
                 if definition.Name or not definition.is_a("IfcPropertySetDefinition"):
                     merged.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
             known = {name: encoded(values) for name, values in merged.items() if values}
-            # Those of a type alone are asked for again and again.
+            # Those of a type alone are requested again and again.
             if not definitions:
                 self._shared[key] = known
         return known
@@ -112,7 +112,7 @@ class AttributeReader:
                 known = self._properties(definition.HasProperties, 0)
             else:
                 known = self._predefined(definition)
-            if len(self._sets) >= _MOST_SETS:
+            if len(self._sets) >= _MAX_SETS:
                 self._sets.clear()
             self._sets[definition.id()] = known
         return known
@@ -131,7 +131,7 @@ class AttributeReader:
             elif kind == "IfcPropertyBoundedValue":
                 low, high = (self._units.value(bound, item.Unit) for bound in (item.LowerBoundValue, item.UpperBoundValue))
                 value = {name: bound for name, bound in (("low", low), ("high", high)) if bound is not None}
-            elif kind == "IfcComplexProperty" and depth < _MOST_DEPTH:
+            elif kind == "IfcComplexProperty" and depth < _MAX_DEPTH:
                 value = self._properties(item.HasProperties, depth + 1)
             else:
                 continue
@@ -143,7 +143,7 @@ class AttributeReader:
         result: dict[str, Any] = {}
         for item in quantities or ():
             if item.is_a("IfcPhysicalComplexQuantity"):
-                if depth < _MOST_DEPTH:
+                if depth < _MAX_DEPTH:
                     result[str(item.Name)] = self._quantities(item.HasQuantities, depth + 1)
                 continue
             name, kind = _QUANTITIES.get(item.is_a(), ("", None))
@@ -248,7 +248,7 @@ def _classifications(product: Entity) -> list[str]:
 
 
 def _material_names(material: Entity, depth: int) -> list[str]:
-    if depth > _MOST_DEPTH:
+    if depth > _MAX_DEPTH:
         return []
     for single in ("ForLayerSet", "ForProfileSet", "Material"):
         inner = getattr(material, single, None)

@@ -26,8 +26,8 @@ from strake.importers.shapes import PreparedShape
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
-_LEAST_IN_CHUNK = 16
-_MOST_CHUNKS = 256
+_MIN_IN_CHUNK = 16
+_MAX_CHUNKS = 256
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[int, ...]]:
     settings.set("defer-processing-first-element", True)
     iterator = shapes_of(model, map(number_of, products), settings, EXACT, ifcopenshell_wrapper.logger())
     iterator.initialize()
-    # The wrapper in Python of this function asks for a file that the iterator does not have.
+    # The wrapper in Python of this function requests a file that the iterator does not have.
     get_task_products: Any = ifcopenshell_wrapper.iterator.get_task_products
     return sorted(tuple(sorted(product.id() for product in task)) for task in get_task_products(iterator))
 
@@ -104,7 +104,7 @@ def chunks_of(tasks: Sequence[tuple[int, ...]], kernels_of: Mapping[int, tuple[s
     by_kernel: dict[str, list[tuple[int, ...]]] = {}
     for task in tasks:
         by_kernel.setdefault(kernels_of[task[0]][0], []).append(task)
-    most = max(_LEAST_IN_CHUNK, len(tasks) // _MOST_CHUNKS)
+    most = max(_MIN_IN_CHUNK, len(tasks) // _MAX_CHUNKS)
     chunks = []
     for kernel, numbers in sorted(by_kernel.items()):
         for first in range(0, len(numbers), most):
@@ -178,9 +178,9 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
         missing = suspect  # what hung for so long does not get the same again
     onward: dict[str, list[int]] = {}
     for number in missing:
-        said = result.remarks.setdefault(number, [])
-        if ended.fault or not any(kernel == chunk.kernel for kernel, _ in said):
-            said.append((chunk.kernel, ended.fault or "no shape"))
+        kernel_remarks = result.remarks.setdefault(number, [])
+        if ended.fault or not any(kernel == chunk.kernel for kernel, _ in kernel_remarks):
+            kernel_remarks.append((chunk.kernel, ended.fault or "no shape"))
         following = kernels_of[number][chunk.attempt + 1 :]
         if following:
             onward.setdefault(following[0], []).append(number)
@@ -200,10 +200,10 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
 
 
 def _fail(number: int, result: Conversion) -> None:
-    said = result.remarks[number]
+    kernel_remarks = result.remarks[number]
     # A kernel says the same thing several times, each time with more around it.
-    longest = dict(sorted(said, key=lambda remark: len(remark[1])))
-    result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in said))
+    longest = dict(sorted(kernel_remarks, key=lambda remark: len(remark[1])))
+    result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in kernel_remarks))
     # What manifold3d does not cut says nothing of what is left.
-    if all(text == EMPTY for kernel, text in said if kernel != CUT):
+    if all(text == EMPTY for kernel, text in kernel_remarks if kernel != CUT):
         result.empty.add(number)

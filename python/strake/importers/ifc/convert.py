@@ -17,7 +17,7 @@ from strake.importers.ifc.conversion import Conversion, convert_products
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.georeference import read_map_conversion
 from strake.importers.ifc.kernels import SAG_M
-from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
+from strake.importers.ifc.products import Ids, Products, choose_products, report_left_out
 from strake.importers.ifc.solids import manifold3d_files
 from strake.importers.ifc.source import open_model, origin_of
 from strake.importers.ifc.spatial import SpatialGroups
@@ -25,8 +25,8 @@ from strake.importers.ifc.units import Units
 from strake.importers.report import Report
 from strake.importers.scene_writer import Group
 
-# The longest text of a kernel that is told of a product.
-_MOST_MESSAGE = 400
+# The longest text of a kernel that is reported for a product.
+_MAX_MESSAGE = 400
 
 
 def convert(job: Job) -> None:
@@ -63,7 +63,7 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
                 continue
             object_id = ids.of(product)
             if placed is None:
-                _tell_of_missing(product, object_id, conversion, report)
+                _report_missing(product, object_id, conversion, report)
                 continue
             shape = scene.known_shape(placed.key, placed.middle) or scene.add_shape(conversion.shapes.get(placed.key))
             if shape.middle != placed.middle:
@@ -73,24 +73,24 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
                 stated = {**origin, **stated}
             scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), parent, stated)
             if remarks := conversion.remarks_of(number):
-                message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
+                message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MAX_MESSAGE]}"
                 report.warning("ifc-remark", message, object_id)
         if scene.object_count == 0:
             why = next(iter(conversion.failed.values()), "it has no product with a body")
-            report.fail(f"nothing in it becomes an object: {why}"[:_MOST_MESSAGE], "leave it out, or export it with bodies")
+            report.fail(f"nothing in it becomes an object: {why}"[:_MAX_MESSAGE], "leave it out, or export it with bodies")
     if on_map := read_map_conversion(model, report):
         job.place_on_map(on_map.crs, on_map.to_map)
         where = f"east {on_map.eastings_mm / 1000:g} m, north {on_map.northings_mm / 1000:g} m on {on_map.crs}"
         report.note("ifc-map-conversion", f"it lies {where}: an attribute of the site, applied where that is asked for")
-    tell_of_left_out(products, len(conversion.bodyless), report)
+    report_left_out(products, len(conversion.bodyless), report)
 
 
-def _tell_of_missing(product: Entity, object_id: str, conversion: Conversion, report: Report) -> None:
+def _report_missing(product: Entity, object_id: str, conversion: Conversion, report: Report) -> None:
     name = f"{product.is_a()} '{product.Name or ''}'"
     if product.id() in conversion.empty and getattr(product, "HasOpenings", None):
         report.warning("ifc-cut-away", f"{name} is left out: its openings leave nothing of it", object_id)
     else:
-        report.skipped("ifc-no-shape", f"{name} is left out: {conversion.failed[product.id()]}"[:_MOST_MESSAGE], object_id)
+        report.skipped("ifc-no-shape", f"{name} is left out: {conversion.failed[product.id()]}"[:_MAX_MESSAGE], object_id)
 
 
 def _read(
@@ -101,5 +101,5 @@ def _read(
         return groups.above(product), attributes.of(product)
     except Exception as fault:
         message = f"the attributes of {product.is_a()} '{product.Name or ''}' cannot be read: {type(fault).__name__}: {fault}"
-        report.warning("ifc-attributes", message[:_MOST_MESSAGE], object_id)
+        report.warning("ifc-attributes", message[:_MAX_MESSAGE], object_id)
         return None, {"class": product.is_a()}

@@ -20,8 +20,8 @@ from strake.importers.shapes import Color, used_corners
 
 _MM_PER_M = 1000.0
 _BOOLEANS = ("IfcBooleanClippingResult", "IfcBooleanResult")
-_MOST_CUTS = 1000
-_MOST_DEPTH = 100
+_MAX_CUTS = 1000
+_MAX_DEPTH = 100
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,7 @@ def _openings_of(product: Entity) -> list[int]:
     while wholes := _wholes_of(part):
         part, depth = wholes[0], depth + 1
         cutting = [relation.RelatedOpeningElement for relation in part.get("HasOpenings") or ()]
-        if len(wholes) > 1 or depth > _MOST_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
+        if len(wholes) > 1 or depth > _MAX_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
             raise Unfit("a part of several wholes, or of an assembly that has openings")
         openings += cutting
     for opening in openings:
@@ -209,7 +209,7 @@ def _plan_item(model: Model, item: Entity, representation: int, plan: _Plan) -> 
     clips: list[Entity] = []
     at = item
     while at.is_a() in _BOOLEANS:
-        if at.Operator != "DIFFERENCE" or len(clips) >= _MOST_CUTS:
+        if at.Operator != "DIFFERENCE" or len(clips) >= _MAX_CUTS:
             raise Unfit(f"a Boolean {at.Operator}")
         clips.append(at.SecondOperand)
         if at.id() != item.id() and at.StyledByItem:

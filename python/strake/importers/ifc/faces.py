@@ -22,7 +22,7 @@ class Faces(enum.IntEnum):
     """The file states facets, which stand for nobody knows what."""
 
 
-_MOST_DEPTH = 12
+_MAX_DEPTH = 12
 _FLAT_SOLIDS = {"IfcBlock", "IfcBoundingBox", "IfcRectangularPyramid"}
 _FACETS = {
     "IfcFacetedBrep",
@@ -76,7 +76,7 @@ def _of_item(item: Entity, depth: int) -> Faces:
         return Faces.FACETS
     if kind in _FLAT_SOLIDS:
         return Faces.FLAT
-    if depth >= _MOST_DEPTH:
+    if depth >= _MAX_DEPTH:
         return Faces.CURVED
     if kind in _EXTRUSIONS:
         ends = [item.SweptArea, item.get("EndSweptArea")]
@@ -99,7 +99,7 @@ def _flat_if(flat: bool) -> Faces:
 
 def _is_straight_profile(profile: Entity, depth: int) -> bool:
     kind = profile.is_a()
-    if depth >= _MOST_DEPTH:
+    if depth >= _MAX_DEPTH:
         return False
     if kind in _STRAIGHT_PROFILES:
         return not any(getattr(profile, name) for name in profile.attribute_names() if name.endswith("Radius"))
@@ -117,7 +117,7 @@ def _is_straight(curve: Entity, depth: int) -> bool:
     kind = curve.is_a()
     if kind in ("IfcPolyline", "IfcLine"):
         return True
-    if depth >= _MOST_DEPTH:
+    if depth >= _MAX_DEPTH:
         return False
     if kind == "IfcIndexedPolyCurve":
         segments: Any = curve.Segments or ()

@@ -14,7 +14,7 @@ from strake.importers.ifc.units import millimetres_of, project_length_unit
 from strake.importers.report import Report
 
 # Scales of map projections are within a percent of 1; a factor of a thousand is a unit that was taken for another.
-_MOST_SCALE = 0.01
+_MAX_SCALE = 0.01
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def read_map_conversion(model: Model, report: Report) -> MapConversion | None:
     scale = project_mm / map_mm if math.isnan(stated) else stated
     factors = [_number(getattr(conversion, key, None), 1.0) for key in ("FactorX", "FactorY", "FactorZ")]
     along = [scale * factor * map_mm / project_mm for factor in factors]
-    if any(abs(factor - 1) > _MOST_SCALE for factor in along) and all(0.99 <= scale * f <= 1.01 for f in factors):
+    if any(abs(factor - 1) > _MAX_SCALE for factor in along) and all(0.99 <= scale * f <= 1.01 for f in factors):
         # Written as if both were in one unit.
         report.warning(
             "ifc-map-scale",

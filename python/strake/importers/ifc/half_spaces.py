@@ -13,11 +13,11 @@ from strake.importers.ifc.entity import Entity
 from strake.importers.ifc.solids import Corners, Mesh, Unfit, mesh_of, solid_of
 
 _BEYOND_MM = 1000.0
-_LEAST_LENGTH = 1e-9
+_MIN_LENGTH = 1e-9
 # Beyond this doubles of millimetres are coarser than what lies near a face.
-_MOST_MM = 1e12
+_MAX_MM = 1e12
 # Segments of a boundary, of which each is compared with each.
-_MOST_SEGMENTS = 2000
+_MAX_SEGMENTS = 2000
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def half_space(entity: Entity, unit_mm: float, low: Corners, high: Corners) -> M
 def axes_of(placement: Entity, unit_mm: float) -> Axes:
     """Returns the axes of an IfcAxis2Placement3D."""
     place = np.array(placement.Location.Coordinates, dtype=np.float64) * unit_mm
-    if place.shape != (3,) or not (np.abs(place) <= _MOST_MM).all():
+    if place.shape != (3,) or not (np.abs(place) <= _MAX_MM).all():
         raise Unfit("a place that is too far out")
     z = _direction(placement.Axis, (0.0, 0.0, 1.0))
     x = _direction(placement.RefDirection, (1.0, 0.0, 0.0))
@@ -70,7 +70,7 @@ def _direction(entity: Entity | None, otherwise: tuple[float, float, float]) -> 
 
 def _unit(vector: Corners) -> Corners:
     length = float(np.linalg.norm(vector))
-    if vector.shape != (3,) or not _LEAST_LENGTH < length < np.inf:
+    if vector.shape != (3,) or not _MIN_LENGTH < length < np.inf:
         raise Unfit("axes that have no direction")
     result: Corners = vector / length
     return result
@@ -94,9 +94,9 @@ def _prism(entity: Entity, unit_mm: float, low: Corners, high: Corners) -> Any:
     outline: list[NDArray[np.float64]] = []
     for point in boundary.Points:
         place = np.array(point.Coordinates[:2], dtype=np.float64) * unit_mm
-        if not outline or np.abs(place - outline[-1]).max() > _LEAST_LENGTH:
+        if not outline or np.abs(place - outline[-1]).max() > _MIN_LENGTH:
             outline.append(place)
-    if len(outline) > 1 and np.abs(outline[0] - outline[-1]).max() <= _LEAST_LENGTH:
+    if len(outline) > 1 and np.abs(outline[0] - outline[-1]).max() <= _MIN_LENGTH:
         outline.pop()
     if len(outline) < 3:
         raise Unfit("a half-space bounded by no area")
@@ -112,7 +112,7 @@ def _prism(entity: Entity, unit_mm: float, low: Corners, high: Corners) -> Any:
 def _is_simple(outline: NDArray[np.float64]) -> bool:
     """Whether segments meet at their common corners only. Triangles of any other outline are those of something else."""
     count = len(outline)
-    if count > _MOST_SEGMENTS or not (np.abs(outline) <= _MOST_MM).all():
+    if count > _MAX_SEGMENTS or not (np.abs(outline) <= _MAX_MM).all():
         raise Unfit("a half-space bounded by too much")
     following = np.roll(outline, -1, axis=0)
     along = following - outline

@@ -39,7 +39,7 @@ CUT = "cgal-simple with manifold3d"
 _CUTS = {"opening", "IfcBooleanClippingResult", "IfcBooleanResult"}
 # Representations that are no body.
 NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
-_MOST_DEPTH = 12
+_MAX_DEPTH = 12
 
 # What is tried for a product, one after the other, until one gives a shape.
 AFTER_FAST = (FAST, EXACT, "cgal")
@@ -99,7 +99,7 @@ def has_body(product: Entity) -> bool:
 def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
     for item in items:
         result.add(item.is_a())
-        if depth >= _MOST_DEPTH:
+        if depth >= _MAX_DEPTH:
             continue
         inner: list[Entity] = []
         if item.is_a("IfcMappedItem"):

@@ -68,7 +68,7 @@ def _left_out_as(product: Entity) -> str | None:
     return None
 
 
-def tell_of_left_out(products: Products, bodyless: int, report: Report) -> None:
+def report_left_out(products: Products, bodyless: int, report: Report) -> None:
     """Says what is not in the scene, and should not be."""
     if products.left_out:
         counted = ", ".join(f"{count} {word}" for word, count in sorted(products.left_out.items()))

@@ -27,8 +27,8 @@ _MERGED_MM = 0.1
 # Of the normal of a face that is level, and of those of two faces that may lie on each other.
 _LEVEL = 0.9999
 _ROUNDING_MM = 1e-6
-_MOST_PAIRS = 4_000_000
-_LEAST_MM3 = 1e-6
+_MAX_PAIRS = 4_000_000
+_MIN_MM3 = 1e-6
 
 
 class Unfit(ValueError):
@@ -82,9 +82,9 @@ def _closed(mesh: Mesh) -> list[Mesh]:
         solid = solid_of(_welded(mesh))
     parts = solid.decompose()
     volumes = [part.volume() for part in parts]
-    if all(volume > _LEAST_MM3 for volume in volumes):
+    if all(volume > _MIN_MM3 for volume in volumes):
         return [mesh_of(part) for part in parts]
-    if all(volume < -_LEAST_MM3 for volume in volumes):
+    if all(volume < -_MIN_MM3 for volume in volumes):
         return [Mesh(one.vertices, one.triangles[:, ::-1]) for one in map(mesh_of, parts)]
     raise Unfit("a body with a hollow, or that encloses nothing")
 
@@ -193,7 +193,7 @@ class _Faces:
 
         `axis`: all are level there, and equal ones do not count.
         """
-        if len(these) * len(those) > _MOST_PAIRS:
+        if len(these) * len(those) > _MAX_PAIRS:
             raise Unfit("cutters of too many faces that lie aslant or nearly on each other")
         like = np.abs(self.normals[these] @ self.normals[those].T) > _LEVEL
         first, second = np.nonzero(like & (self.owner[these][:, None] != self.owner[those][None, :]))

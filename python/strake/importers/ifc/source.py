@@ -17,8 +17,8 @@ from strake.importers.report import Report
 
 _EXPORT = "export the model as IFC (STEP) again, in version IFC4 or IFC2x3"
 # Text of IFC is packed to a tenth or so; what is packed a thousandfold is no model.
-_MOST_RATIO = 200
-_MOST_BYTES = 16 << 30
+_MAX_RATIO = 200
+_MAX_BYTES = 16 << 30
 _HEAD_BYTES = 1 << 16
 _TAIL_BYTES = 1 << 12
 
@@ -51,7 +51,7 @@ def _unpacked(path: Path, report: Report, folder: Path) -> Path:
             member = members[0]
             if member.flag_bits & 1:
                 report.fail("the archive is encrypted", "unpack it with its password, and give the .ifc file")
-            if member.file_size > min(_MOST_BYTES, _MOST_RATIO * max(member.compress_size, 1 << 16)):
+            if member.file_size > min(_MAX_BYTES, _MAX_RATIO * max(member.compress_size, 1 << 16)):
                 report.fail(
                     f"the archive would be {member.file_size} bytes of {member.compress_size}: no model is packed so densely",
                     "unpack it, and give the .ifc file, if it is one",
@@ -98,12 +98,12 @@ def _opened(path: Path, report: Report) -> Model:
     try:
         model = Model(ifcopenshell.open(path, format=".ifc", logger=log))
     except (ifcopenshell.Error, ifcopenshell.SchemaError, OSError, RuntimeError, ValueError) as fault:
-        said = _first_fault(log) or str(fault)
-        report.fail(f"IfcOpenShell cannot read it: {said}", _EXPORT)
+        fault_text = _first_fault(log) or str(fault)
+        report.fail(f"IfcOpenShell cannot read it: {fault_text}", _EXPORT)
     if not model.by_type("IfcProject"):
         report.warning("ifc-no-project", "the file has no IfcProject: units are taken to be metres")
-    if said := _first_fault(log):
-        report.warning("ifc-syntax", f"faults of syntax, the first: {said}")
+    if fault_text := _first_fault(log):
+        report.warning("ifc-syntax", f"faults of syntax, the first: {fault_text}")
     return model
 
 

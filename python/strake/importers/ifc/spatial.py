@@ -20,7 +20,7 @@ _LEVELS = (
     ("IfcFacility", "Facility"),
     ("IfcElement", "Assembly"),
 )
-_MOST_LEVELS = 32
+_MAX_LEVELS = 32
 
 
 class SpatialGroups:
@@ -36,10 +36,10 @@ class SpatialGroups:
     def above(self, product: Entity) -> Group | None:
         """Returns the group that a product is in."""
         chain: list[Entity] = []
-        seen = {product.id()}
+        visited = {product.id()}
         at = parent_of(product)
-        while at is not None and at.id() not in seen and len(chain) < _MOST_LEVELS:
-            seen.add(at.id())
+        while at is not None and at.id() not in visited and len(chain) < _MAX_LEVELS:
+            visited.add(at.id())
             if at.is_a("IfcProduct"):
                 chain.append(at)
             at = parent_of(at)

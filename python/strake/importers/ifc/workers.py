@@ -23,10 +23,10 @@ from strake.importers.supervision import end_with_parent, signal_name
 
 # How long a worker may work in silence before it counts as hung, in seconds of CPU time: one product takes longer than
 # this only where its cuts have no end. Where the machine is busy, or the worker only waits, it is so many times as long.
-MOST_SILENT_S = 60.0
-_MOST_WAITING = 5.0
+MAX_SILENT_S = 60.0
+_MAX_WAITING = 5.0
 # After each that hung it is half as long, down to this.
-LEAST_SILENT_S = 8.0
+MIN_SILENT_S = 8.0
 _TICK_S = 0.5
 # Who is silent for longer is looked at, which takes the system as long as an answer.
 _LOOKED_AT_S = 0.1
@@ -69,7 +69,7 @@ class _Worker:
         if silent_s <= limit_s or self.cpu_then_s is None:
             return False
         cpu_s = _cpu_seconds(self.process.pid)
-        return cpu_s == math.inf or cpu_s - self.cpu_then_s > limit_s or silent_s > _MOST_WAITING * limit_s
+        return cpu_s == math.inf or cpu_s - self.cpu_then_s > limit_s or silent_s > _MAX_WAITING * limit_s
 
 
 class Workers:
@@ -78,7 +78,7 @@ class Workers:
     Chunks may be added while answers come. Close it to end the processes.
     """
 
-    def __init__(self, model: Model, count: int, silent_s: float = MOST_SILENT_S, convert: Convert = convert_chunk) -> None:
+    def __init__(self, model: Model, count: int, silent_s: float = MAX_SILENT_S, convert: Convert = convert_chunk) -> None:
         self._model = model
         self._count = count
         self._silent_s = silent_s
@@ -161,7 +161,7 @@ class Workers:
         # Where one product has no end others have none either, and a hundred of them must not take hours. A chunk that is cut
         # goes on as a whole, and says nothing of the kernels that come after.
         if ended.chunk.kernel != CUT:
-            self._silent_s = max(min(self._silent_s, LEAST_SILENT_S), self._silent_s / 2)
+            self._silent_s = max(min(self._silent_s, MIN_SILENT_S), self._silent_s / 2)
         return replace(ended, hung=True)
 
     def _lost(self, worker: _Worker, fault: str) -> Ended:

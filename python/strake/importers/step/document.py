@@ -29,7 +29,7 @@ from strake.importers.step.pieces import rgba
 _UNITS = (("milli", "mm"), ("centi", "cm"), ("kilo", "km"), ("micro", "um"), ("metre", "m"), ("meter", "m"), ("inch", "in"))
 _IGES_UNITS = ((1, "mm"), (10, "cm"), (1000, "m"), (25.4, "in"), (304.8, "ft"), (1e6, "km"), (1e-3, "um"))
 _MADE_UP = re.compile(r"=>\[0:|(COMPOUND|COMPSOLID|SOLID|SHELL|FACE|WIRE|EDGE|VERTEX|SHAPE)$")
-# Not of those alone that were asked for.
+# Not of those alone that were requested.
 _OF_ALL_ENTITIES = 1
 _NUMBERED = re.compile(r"(NAUO)?\d*$")
 

@@ -46,7 +46,7 @@ def mesh_of(shape: Any, sag_mm: float | None) -> Mesh:
     is_known = all(has_surface(face) for face in faces)
     is_exact = is_known and _is_flat(shape)
     sag = _sag_of(shape) if sag_mm is None else sag_mm
-    # Open CASCADE makes some faces, as whole balls, twice as coarse as it is asked for.
+    # Open CASCADE makes some faces, as whole balls, twice as coarse as requested.
     BRepMesh_IncrementalMesh(shape, sag / 2, False, _LARGEST_TURN, True)
     collected = _Collector()
     explorer = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)

@@ -37,10 +37,10 @@ class Piece:
 def found(shape: Any, kind: TopAbs_ShapeEnum, outside: TopAbs_ShapeEnum | None = None) -> list[Any]:
     """Returns the shapes of a kind within another, each once, and only those outside of another kind."""
     explorer = TopExp_Explorer(shape, kind) if outside is None else TopExp_Explorer(shape, kind, outside)
-    seen = TopTools_IndexedMapOfShape()
+    visited = TopTools_IndexedMapOfShape()
     shapes: list[Any] = []
     while explorer.More():
-        if seen.Add(explorer.Current()) > len(shapes):
+        if visited.Add(explorer.Current()) > len(shapes):
             shapes.append(explorer.Current())
         explorer.Next()
     return shapes

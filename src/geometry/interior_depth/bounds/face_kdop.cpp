@@ -132,17 +132,17 @@ bool merge_needles_of_largest(std::vector<DistinctFace>& faces) {
   return true;
 }
 
-void keep_largest(std::vector<DistinctFace>& faces, std::size_t most) {
-  if (faces.size() <= most) return;
-  std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(most), faces.end(),
+void keep_largest(std::vector<DistinctFace>& faces, std::size_t limit) {
+  if (faces.size() <= limit) return;
+  std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(limit), faces.end(),
                    [](const DistinctFace& a, const DistinctFace& b) {
                      return a.area != b.area ? a.area > b.area : a.key < b.key;
                    });
-  faces.resize(most);
+  faces.resize(limit);
 }
 
-/// The distinct faces, at most `most`, by normal.
-std::vector<DistinctFace> distinct_faces(const Part& part, std::size_t most,
+/// The distinct faces, at most `limit`, by normal.
+std::vector<DistinctFace> distinct_faces(const Part& part, std::size_t limit,
                                          const parallel::Context& context) {
   std::vector<DistinctFace> faces = all_faces(part, context);
   if (faces.size() > kSorted)
@@ -151,7 +151,7 @@ std::vector<DistinctFace> distinct_faces(const Part& part, std::size_t most,
     merge_by_sorting(faces);
   for (int i = 0; i < kNeedleFaces && faces.size() > kMaxConvexPlanes; ++i)
     if (!merge_needles_of_largest(faces)) break;
-  keep_largest(faces, most);
+  keep_largest(faces, limit);
   std::sort(faces.begin(), faces.end(),
             [](const DistinctFace& a, const DistinctFace& b) { return a.key < b.key; });
   return faces;
@@ -202,11 +202,11 @@ bool exactly_convex_edges(const Part& part, const parallel::Context& context) {
 /// No vertex stands above the plane of a face. Also false where that takes long to see: a finely
 /// tessellated round body has thousands of vertices just below each of its faces.
 bool below_its_faces(const Part& part, double slack) {
-  constexpr std::size_t kMostScanned = 64;  // vertices that are tested one by one
+  constexpr std::size_t kMaxScanned = 64;  // vertices that are tested one by one
   // Without a limit two spheres of a million triangles took 24 s here. With 256 boxes a face fine
   // spheres took 1.6 µs a triangle in all, most of it here.
   constexpr std::uint64_t kFirstBoxes = 4096, kBoxesPerFace = 64;
-  const bool linear = part.vertices.size() <= kMostScanned;
+  const bool linear = part.vertices.size() <= kMaxScanned;
   const SupportTree tree = linear ? SupportTree() : SupportTree(part.vertices);
   std::uint64_t boxes = kFirstBoxes;
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {

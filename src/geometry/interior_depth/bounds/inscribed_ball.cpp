@@ -65,9 +65,9 @@ struct Combination {
   }
   /// The most that the row gives for any point in the extent.
   [[nodiscard]] double reach(double extent) const {
-    double most = 0;
-    for (const double v : row) most += std::fabs(v);
-    return most * extent * (1 + 16 * kPivotEps);
+    double largest = 0;
+    for (const double v : row) largest += std::fabs(v);
+    return largest * extent * (1 + 16 * kPivotEps);
   }
   /// What rounding may have changed.
   [[nodiscard]] double error(double extent) const {
@@ -116,11 +116,11 @@ double DualSimplex::share(const BallConstraint& c, std::size_t i) const {
 }
 
 double DualSimplex::excess_error(const BallConstraint& c) const {
-  double most = 0;
+  double largest = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    most += std::fabs(share(c, i)) *
-            (std::fabs(excess(rows_[i])) + kPivotEps * (std::fabs(rows_[i].offset) + extent_));
-  return most;
+    largest += std::fabs(share(c, i)) *
+               (std::fabs(excess(rows_[i])) + kPivotEps * (std::fabs(rows_[i].offset) + extent_));
+  return largest;
 }
 
 /// With a the entering row and rest = a + sum w a_i, all z that satisfy the five constraints have
@@ -238,8 +238,8 @@ class FreeDirections {
       Vec3d rest = axis;
       for (const Vec3d& other : left) rest = rest - other * dot(other, rest);
       // Of two or three unit vectors that span the same, one has at least so much beside the rest.
-      constexpr double kLeast = 0.5;
-      if (left.size() < axes_.size() && length(rest) > kLeast) left.push_back(unit(rest));
+      constexpr double kMin = 0.5;
+      if (left.size() < axes_.size() && length(rest) > kMin) left.push_back(unit(rest));
     }
     left.erase(left.begin());
     axes_ = std::move(left);

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kNearPerTriangle = 2, kNodesPerTriangle = 8;
 constexpr std::size_t kAlwaysNear = 128;
 /// Number of surface points tried for one that is clear of the other body.
-constexpr std::size_t kMostProbes = 16;
+constexpr std::size_t kMaxProbes = 16;
 /// Room that displacements may need beyond coordinates that fit the exact arithmetic.
 constexpr std::int64_t kRoom = 64;
 
@@ -97,7 +97,7 @@ class MovingSurface {
   void add(std::uint32_t triangle) { triangles_.push_back(triangle); }
 
   /// False where a triangle has no area any more.
-  bool shrink(double most) {
+  bool shrink(double limit) {
     here_.clear();
     there_.clear();
     moved_.clear();
@@ -107,7 +107,7 @@ class MovingSurface {
     std::vector<MovingTriangle> moving;
     moving.reserve(triangles_.size());
     for (const std::uint32_t t : triangles_) moving.push_back({t, false, false});
-    moves_ = vertex_displacements(view_.part(), moving, {}, most);
+    moves_ = vertex_displacements(view_.part(), moving, {}, limit);
     for (const VertexDisplacement& move : moves_) {
       const Vec3d by = move.by.as<double>();
       const double root = std::sqrt(dot(by, by));
@@ -163,23 +163,23 @@ class MovingSurface {
   double longest_ = 0;
 };
 
-/// Whether some surface point is outside the other body and farther from it than `most`.
+/// Whether some surface point is outside the other body and farther from it than `limit`.
 bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, const Vec3l& shift,
-                        double most, QueryContext& work) {
+                        double limit, QueryContext& work) {
   const Part& part = view.part();
-  const Box3d search_box = other.placed.part->box.as<double>().inflated(most + 1);
+  const Box3d search_box = other.placed.part->box.as<double>().inflated(limit + 1);
   for (const Vec3i& v : part.vertices) {
     const Vec3d p = (v.as<std::int64_t>() - shift).as<double>();
     if (!search_box.contains({p, p})) return true;
   }
   // The middles of triangles.
-  const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMostProbes);
+  const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMaxProbes);
   for (std::size_t t = 0; t < n; t += step) {
     Vec3l thrice;
     for (const std::uint32_t v : part.triangles[t])
       thrice = thrice + (part.vertices[v].as<std::int64_t>() - shift);
     const Vec3d p = thrice.as<double>() * (1.0 / 3);
-    if (distance_to_surface(other, p, most + 2) > most + 1 &&
+    if (distance_to_surface(other, p, limit + 2) > limit + 1 &&
         side_of(other, thrice, 3, work) == PointSide::outside)
       return true;
   }
@@ -188,7 +188,7 @@ bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, con
 
 class DisplacementSearch {
  public:
-  DisplacementSearch(const PartWithBvh& a, const PartWithBvh& b, double most, QueryContext& work)
+  DisplacementSearch(const PartWithBvh& a, const PartWithBvh& b, double limit, QueryContext& work)
       : treed_a_(a),
         treed_b_(b),
         shift_(b.placed.origin - a.placed.origin),
@@ -196,17 +196,17 @@ class DisplacementSearch {
         b_(b, shift_),
         surface_a_(a_),
         surface_b_(b_),
-        most_(most),
+        limit_(limit),
         work_(work) {}
 
   std::optional<SeparatingDisplacement> run(double first) {
     if (!applies() || !find_near()) return std::nullopt;
-    for (const double most : {first, most_}) {
-      if (most > most_ || !parts(most)) continue;
+    for (const double limit : {first, limit_}) {
+      if (limit > limit_ || !parts(limit)) continue;
       // One point decides for all of a surface that does not meet the other, also after
       // displacements no longer than its distance from the other.
-      if (!is_clear_somewhere(a_, treed_b_, shift_, most, work_) ||
-          !is_clear_somewhere(b_, treed_a_, Vec3l{} - shift_, most, work_))
+      if (!is_clear_somewhere(a_, treed_b_, shift_, limit, work_) ||
+          !is_clear_somewhere(b_, treed_a_, Vec3l{} - shift_, limit, work_))
         return std::nullopt;
       return SeparatingDisplacement{std::max(surface_a_.longest_move(), surface_b_.longest_move()),
                                     surface_a_.corners(), surface_b_.corners()};
@@ -229,8 +229,8 @@ class DisplacementSearch {
   }
 
   /// Whether displacements are found after which no triangle of one meets any of the other.
-  bool parts(double most) {
-    if (!surface_a_.shrink(most) || !surface_b_.shrink(most)) return false;
+  bool parts(double limit) {
+    if (!surface_a_.shrink(limit) || !surface_b_.shrink(limit)) return false;
     return std::ranges::none_of(near_, [&](const NodePair& pair) {
       const std::size_t i = surface_a_.place(pair.a), j = surface_b_.place(pair.b);
       return surface_a_.meets_after(i, surface_b_, j, work_) ||
@@ -242,7 +242,7 @@ class DisplacementSearch {
   bool find_near() {
     const std::size_t triangles = a_.part().triangles.size() + b_.part().triangles.size();
     // Whatever is farther stays apart where one of the two moves.
-    const double reach = most_ + 1;
+    const double reach = limit_ + 1;
     const auto margin = static_cast<std::int64_t>(std::ceil(reach));
     const auto near = [&](const TriangleBvh::Node& x, const TriangleBvh::Node& y) {
       ++work_.node_pairs;
@@ -284,7 +284,7 @@ class DisplacementSearch {
   Vec3l shift_;
   PairLocalPart a_, b_;
   MovingSurface surface_a_, surface_b_;
-  double most_;
+  double limit_;
   QueryContext& work_;
   std::vector<NodePair> near_;  ///< of triangles
 };
@@ -293,9 +293,9 @@ class DisplacementSearch {
 
 std::optional<SeparatingDisplacement> find_separating_displacement(const PartWithBvh& a,
                                                                    const PartWithBvh& b,
-                                                                   double first, double most,
+                                                                   double first, double limit,
                                                                    QueryContext& work) {
-  return DisplacementSearch(a, b, most, work).run(first);
+  return DisplacementSearch(a, b, limit, work).run(first);
 }
 
 }  // namespace strake::geometry

@@ -19,7 +19,7 @@ struct SeparatingDisplacement {
 };
 
 /// Bounds the depth of two solids by displacements of their vertices, none longer than `first` grid
-/// units (at least 1) or, where these do not suffice, than `most`: each body in turn shrinks where
+/// units (at least 1) or, where these do not suffice, than `limit`: each body in turn shrinks where
 /// it comes near the other. Where the displaced surface of one has no point in common with the
 /// other, and neither is inside the other, the interiors have none either; the surface swept over
 /// the former intersection, which therefore is no farther from it than it moved. Decided exactly.
@@ -27,6 +27,6 @@ struct SeparatingDisplacement {
 /// Nothing where no such displacements are found: for deeper bodies the search ends at the first
 /// triangles that show it. The pair fits the exact arithmetic (fits_pair()).
 [[nodiscard]] std::optional<SeparatingDisplacement> find_separating_displacement(
-    const PartWithBvh& a, const PartWithBvh& b, double first, double most, QueryContext& work);
+    const PartWithBvh& a, const PartWithBvh& b, double first, double limit, QueryContext& work);
 
 }  // namespace strake::geometry

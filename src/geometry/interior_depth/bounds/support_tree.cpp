@@ -71,8 +71,8 @@ SupportTree::SupportPoint SupportTree::support_along(const Vec3d& n) const {
   std::size_t size = 0;
   stack[size++] = {0, along(n, nodes_.front().box)};
   while (size > 0) {
-    const auto [index, most] = stack[--size];
-    if (!(most > best.value)) continue;
+    const auto [index, limit] = stack[--size];
+    if (!(limit > best.value)) continue;
     const Node& node = nodes_[index];
     if (node.count > 0) {
       test_points(std::span(points_).subspan(node.first, node.count));
@@ -87,12 +87,12 @@ SupportTree::SupportPoint SupportTree::support_along(const Vec3d& n) const {
   return best;
 }
 
-std::vector<Vec3i> SupportTree::points_within(const Box3d& box, std::size_t most) const {
+std::vector<Vec3i> SupportTree::points_within(const Box3d& box, std::size_t limit) const {
   std::vector<Vec3i> found;
   const auto take = [&](std::span<const Vec3i> points) {
     for (const Vec3i& p : points) {
       const Vec3d at = p.as<double>();
-      if (found.size() < most && box.contains({at, at})) found.push_back(p);
+      if (found.size() < limit && box.contains({at, at})) found.push_back(p);
     }
   };
   if (nodes_.empty()) {
@@ -102,7 +102,7 @@ std::vector<Vec3i> SupportTree::points_within(const Box3d& box, std::size_t most
   std::array<std::uint32_t, kDepth> stack;
   std::size_t size = 0;
   stack[size++] = 0;
-  while (size > 0 && found.size() < most) {
+  while (size > 0 && found.size() < limit) {
     const Node& node = nodes_[stack[--size]];
     if (!node.box.as<double>().meets(box)) continue;
     if (node.count > 0) {

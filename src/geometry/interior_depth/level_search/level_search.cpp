@@ -23,10 +23,10 @@ constexpr std::uint64_t kVisitedPerCell = 256;
 /// spring (a kind of bench deep_pairs) stayed wide.
 constexpr std::uint64_t kVisitedPerPiece = 4;
 /// The least difference of the ways to two triangles that a cut goes between.
-constexpr double kLeastTurn = 0.1;
+constexpr double kMinTurn = 0.1;
 
 /// Maximum number of half-spaces used of a part: more of a round one cost more than they cut off.
-constexpr std::size_t kMostLevelPlanes = 64;
+constexpr std::size_t kMaxLevelPlanes = 64;
 
 class LevelSearch {
  public:
@@ -99,7 +99,7 @@ class LevelSearch {
         if (next.cell.corners.size() < 3 || is_clear(next)) continue;
         if (answer_.deeper.has_value() || radius_ - slack_ < flat_) return false;
         cut_ += 2;
-        if (cells() > q_.most_cells) return false;
+        if (cells() > q_.max_cells) return false;
         for (OffsetCell& part : cut(std::move(next.cell)))
           open.push_back({std::move(part), next.of, next.in});
       }
@@ -235,16 +235,16 @@ class LevelSearch {
   [[nodiscard]] std::optional<HalfSpace> plane_to_cut_along(const OffsetCell& cell) const {
     const double clear = slack_ + flat_;
     std::optional<HalfSpace> best;
-    double most = 0;
+    double largest = 0;
     if (crossing_.size() <= kMaxCrossing)
       for (const Corners& c : crossing_) {
         const Vec3d n = normal_of(c);
         const double area = length(n);
-        if (!(area > most)) continue;
+        if (!(area > largest)) continue;
         const double top = std::max({dot(n, c[0]), dot(n, c[1]), dot(n, c[2])}) / area;
         const HalfSpace plane{n * (1 / area), top + clear};
         if (!goes_through(cell, plane)) continue;
-        most = area;
+        largest = area;
         best = plane;
       }
     if (best) return best;
@@ -281,7 +281,7 @@ class LevelSearch {
       for (std::size_t j = 0; j < i; ++j) {
         const Vec3d n = directions[i].unit - directions[j].unit;
         const double size = length(n);
-        if (!(size > kLeastTurn)) continue;
+        if (!(size > kMinTurn)) continue;
         const double off = (directions[j].distance - directions[i].distance) / size;
         if (!(std::fabs(off) < least)) continue;
         const Vec3d normal = n * (1 / size);
@@ -332,7 +332,7 @@ std::vector<HalfSpace> half_spaces_of(const DistanceField& part) {
   const std::vector<FaceKdop::Plane>& planes = part.planes()->planes;
   // They are sorted by their normals: any share faces all directions.
   const std::size_t step =
-      std::max<std::size_t>(1, (planes.size() + kMostLevelPlanes - 1) / kMostLevelPlanes);
+      std::max<std::size_t>(1, (planes.size() + kMaxLevelPlanes - 1) / kMaxLevelPlanes);
   const Vec3d shift = part.local({});
   for (std::size_t i = 0; i < planes.size(); i += step)
     hull.push_back({planes[i].normal, planes[i].support - dot(planes[i].normal, shift)});

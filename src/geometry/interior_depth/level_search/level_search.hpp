@@ -21,7 +21,7 @@ struct LevelQuery {
   double slack = 0;    ///< how far a point of the field grid may be off, distances' errors included
   std::span<const HalfSpace> hull_of = {},
                              hull_in = {};  ///< they contain either part; unit normals
-  std::uint64_t most_cells = 0;  ///< work limit, beyond the cells that the surfaces consist of
+  std::uint64_t max_cells = 0;  ///< work limit, beyond the cells that the surfaces consist of
 };
 
 struct LevelResult {

@@ -47,10 +47,10 @@ std::array<OffsetCell, 2> halves_round_edge(const OffsetCell& cell) {
 std::array<OffsetCell, 2> halves_round_corner(const OffsetCell& cell) {
   const auto& p = cell.corners;
   std::size_t longest = 0;
-  double most = -1;
+  double largest = -1;
   for (std::size_t i = 0; i < 3; ++i)
-    if (const double size = length(p[(i + 1) % 3] - p[i]); size > most) {
-      most = size;
+    if (const double size = length(p[(i + 1) % 3] - p[i]); size > largest) {
+      largest = size;
       longest = i;
     }
   const std::size_t i = longest, j = (i + 1) % 3, k = (i + 2) % 3;
@@ -67,9 +67,9 @@ Vec3d middle_of(const OffsetCell& cell) {
 }
 
 double radius_of(const OffsetCell& cell, const Vec3d& from) {
-  double most = 0;
-  for (const Vec3d& p : cell.corners) most = std::max(most, dot(p - from, p - from));
-  return std::sqrt(most);
+  double largest = 0;
+  for (const Vec3d& p : cell.corners) largest = std::max(largest, dot(p - from, p - from));
+  return std::sqrt(largest);
 }
 
 OffsetCell flat_cell(const Corners& triangle, const Vec3d& way) {

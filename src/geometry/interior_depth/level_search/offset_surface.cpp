@@ -20,7 +20,7 @@ namespace {
 
 /// Maximum number of triangles for which a surface is made. With 4,096 a dish in a skirt kept a
 /// bracket of 250 mm.
-constexpr std::size_t kMostTriangles = 16384;
+constexpr std::size_t kMaxTriangles = 16384;
 /// Rounding of heights over a triangle's plane, grid units, and of unit vectors.
 constexpr double kHeightError = 1e-3, kUnitError = 1e-9;
 
@@ -287,7 +287,7 @@ std::optional<std::vector<std::uint32_t>> triangles_near(const DistanceField& of
     for (int k = 0; k < 3; ++k) corners[i][k] = ((i >> k) & 1U) == 0 ? room.lo[k] : room.hi[k];
   const bool all = of.for_each_near(corners, 0, [&](std::uint32_t t) {
     if (box_of(of.placed(t)).meets(room)) near.push_back(t);
-    return near.size() <= kMostTriangles;
+    return near.size() <= kMaxTriangles;
   });
   if (!all) return std::nullopt;
   std::ranges::sort(near);

@@ -54,11 +54,11 @@ namespace {
 // Between 1 and 16 ships show no difference (decision 0073).
 constexpr std::uint32_t kLeaf = 4;
 /// Levels of a tree over as many segments as a number has room for.
-constexpr std::size_t kMostLevels = 33;
+constexpr std::size_t kMaxLevels = 33;
 /// Relative rounding error of the distance to a box: a node is pruned only beyond that.
 constexpr double kBoundaryRounding = 0x1p-40;
 /// Maximum average number of additional pieces per segment.
-constexpr double kMostBoundaryPieces = 8;
+constexpr double kMaxBoundaryPieces = 8;
 /// Grid units: rounding error of where a segment is split.
 constexpr double kMargin = 1.0 / 1024;
 
@@ -83,7 +83,7 @@ std::vector<SegmentBvh::SegmentPiece> SegmentBvh::cut() const {
   const auto n = static_cast<double>(segments_.size());
   const Vec3d size = all.hi - all.lo;
   const double room = std::max({size.x, size.y, size.z}) / std::cbrt(n);
-  const double step = std::max(room, total / (kMostBoundaryPieces * n));
+  const double step = std::max(room, total / (kMaxBoundaryPieces * n));
   std::vector<SegmentPiece> pieces;
   for (std::uint32_t i = 0; i < segments_.size(); ++i) {
     const auto& [from, to] = segments_[i];
@@ -124,7 +124,7 @@ void SegmentBvh::build(std::uint32_t node, std::span<SegmentPiece> pieces) {
 
 SegmentBvh::NearestSegment SegmentBvh::nearest(const Vec3d& p, double limit, double enough) const {
   NearestSegment best{.distance = limit};
-  std::array<std::pair<double, std::uint32_t>, kMostLevels + 1> stack;
+  std::array<std::pair<double, std::uint32_t>, kMaxLevels + 1> stack;
   std::size_t size = 0;
   if (!nodes_.empty()) stack[size++] = {squared_gap(p, nodes_[0].box), 0};
   while (size > 0 && best.distance > enough) {

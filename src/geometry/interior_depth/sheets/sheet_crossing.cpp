@@ -20,7 +20,7 @@ namespace {
 /// Maximum number of segments searched for: two sheets that cross all over have about one per
 /// triangle (two surveys of 180,000 triangles each have 290,000, decision 0040), two of slivers
 /// through each other the square of their number.
-constexpr std::size_t kSegmentsPerTriangle = 2, kLeastSegments = 20000;
+constexpr std::size_t kSegmentsPerTriangle = 2, kMinSegments = 20000;
 /// Far above what double arithmetic makes of a distance within a pair, grid units.
 constexpr double kSlack = 1.0 / 256;
 /// Relative width of a bracket: this narrow, it costs a curve only a few halvings more than a wide
@@ -29,8 +29,8 @@ constexpr double kRelative = 1e-4;
 
 double size_of(const Part& p) { return length(p.box.hi.as<double>() - p.box.lo.as<double>()); }
 
-std::size_t most_segments(const Part& a, const Part& b) {
-  return std::max(kLeastSegments, kSegmentsPerTriangle * (a.triangles.size() + b.triangles.size()));
+std::size_t max_segments(const Part& a, const Part& b) {
+  return std::max(kMinSegments, kSegmentsPerTriangle * (a.triangles.size() + b.triangles.size()));
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ struct SheetCrossing::Curves {
 
   Curves(const PartWithBvh& a, const PartWithBvh& b, double apart_within, QueryContext& work)
       : crossing(find_sheet_intersection(a, b, apart_within,
-                                         most_segments(*a.placed.part, *b.placed.part), work)),
+                                         max_segments(*a.placed.part, *b.placed.part), work)),
         shift((b.placed.origin - a.placed.origin).as<double>()),
         boundary_a(boundary_edges(*a.placed.part)),
         boundary_b(boundary_edges(*b.placed.part)),
@@ -141,12 +141,12 @@ class CurveSearch {
   /// The distance to a segment is convex: along another it is greatest at one of the ends.
   static double farther_end(const std::array<Vec3d, 2>& end, const Vec3d& shift,
                             const SegmentBvh::Segment& rim) {
-    double most = 0;
+    double largest = 0;
     for (const Vec3d& p : end) {
       const Vec3d q = p - shift;
-      most = std::max(most, length(q - nearest_on_segment(q, rim[0], rim[1])));
+      largest = std::max(largest, length(q - nearest_on_segment(q, rim[0], rim[1])));
     }
-    return most;
+    return largest;
   }
 
   const SegmentBvh &boundary_a_, &boundary_b_;

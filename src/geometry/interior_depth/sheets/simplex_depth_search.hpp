@@ -30,8 +30,8 @@ inline constexpr double kSheetRelative = 0.01;
 /// Maximum number of steps from simplex to simplex of a climbing point, and the least relative gain
 /// of one. In an engine whose parts are sheets such steps made a depth of 93.9 mm 101.3 in the same
 /// time (decision 0037).
-inline constexpr int kMostSteps = 8;
-inline constexpr double kLeastGain = 1e-3;
+inline constexpr int kMaxDepthSteps = 8;
+inline constexpr double kMinGain = 1e-3;
 
 /// Finds the deepest point in a solid of triangles (N = 3) or segments (N = 2) in the coordinates
 /// of the field. The branch and bound halves simplices at their longest edges; where the work limit
@@ -168,7 +168,7 @@ class SimplexDepthSearch {
   void climb() {
     if (goal_.negligible_depth > 0) return;  // nobody needs the deepest point
     const Shape* climbed = nullptr;
-    for (int step = 0; step < kMostSteps && depth_.value > 0; ++step) {
+    for (int step = 0; step < kMaxDepthSteps && depth_.value > 0; ++step) {
       const double known = depth_.value;
       const Vec3d from = depth_.point;
       const Shape* const last = climbed;
@@ -181,7 +181,7 @@ class SimplexDepthSearch {
         raise(depth_, distance, at);
         climbed = &c;
       }
-      if (!(depth_.value > known * (1 + kLeastGain))) return;
+      if (!(depth_.value > known * (1 + kMinGain))) return;
     }
   }
 
@@ -193,11 +193,11 @@ class SimplexDepthSearch {
 
   void halve(const OpenSimplex& piece) {
     std::size_t longest = 0;
-    double most = -1;
+    double largest = -1;
     for (std::size_t i = 0; i < N; ++i) {
       const double d = length(piece.corners[(i + 1) % N] - piece.corners[i]);
-      if (d > most) {
-        most = d;
+      if (d > largest) {
+        largest = d;
         longest = i;
       }
     }
@@ -246,12 +246,12 @@ class SimplexDepthSearch {
   /// its surface.
   [[nodiscard]] double by_face(const Shape& c, std::uint32_t triangle) const {
     const Corners face = corners_of(solid_.part(), triangle);
-    double most = 0;
+    double largest = 0;
     for (const Vec3d& v : c) {
       const Vec3d p = solid_.local(v);
-      most = std::max(most, length(p - nearest_on_triangle(p, face)));
+      largest = std::max(largest, length(p - nearest_on_triangle(p, face)));
     }
-    return most;
+    return largest;
   }
 
   std::span<const Shape> pieces_;

@@ -9,9 +9,9 @@
 namespace strake::geometry {
 
 void DistanceField::prepare() {
-  constexpr std::size_t kMost = 16384;
+  constexpr std::size_t kMax = 16384;
   const std::size_t n = part().triangles.size();
-  if (n > kMost || !prepared_.empty()) return;
+  if (n > kMax || !prepared_.empty()) return;
   prepared_.reserve(n);
   for (std::uint32_t t = 0; t < n; ++t) prepared_.emplace_back(corners_of(part(), t));
   const PairLocalPart own(*part_, {});

@@ -10,7 +10,7 @@
 namespace strake::geometry::primitive_pairs {
 namespace {
 
-constexpr double kLeastSine = 1e-6;
+constexpr double kMinSine = 1e-6;
 /// Roundings of a quadric's forms, its axes and its value, with a wide margin.
 constexpr double kQuadricRounding = 512 * std::numeric_limits<double>::epsilon();
 
@@ -90,12 +90,12 @@ bool is_line(const CrossSection& s) { return !(dot(s.u, s.u) > 0) || !(dot(s.v, 
 bool InteriorDistance::add_face(const ConvexBody& body, const Vec3d& u, const Vec3d& v,
                                 const Vec3d& through) {
   const Vec3d across = cross(u, v);
-  const double length = norm(across), most = norm(u) * norm(v);
-  if (!(length > kLeastSine * most)) return false;
+  const double length = norm(across), largest = norm(u) * norm(v);
+  if (!(length > kMinSine * largest)) return false;
   BoundaryPlane& face = faces_[planes_++];
   face.normal = across * (dot(across, through - body.middle) < 0 ? -1 / length : 1 / length);
   face.offset = dot(face.normal, support(body.shape, face.normal));
-  face.error = 4 * body.error * (most / length);
+  face.error = 4 * body.error * (largest / length);
   return true;
 }
 

@@ -148,11 +148,11 @@ inline Vec3d support(const BoxShape& s, const Vec3d& n) {
 inline Vec3d support(const VertexHull& s, const Vec3d& n) {
   if (!s.tree->empty()) return s.tree->support_along(n).vertex.as<double>() + s.origin;
   Vec3d farthest;
-  double most = -std::numeric_limits<double>::infinity();
+  double largest = -std::numeric_limits<double>::infinity();
   for (const Vec3i& v : s.vertices) {
     const Vec3d p = v.as<double>();
-    if (const double along = dot(n, p); along > most) {
-      most = along;
+    if (const double along = dot(n, p); along > largest) {
+      largest = along;
       farthest = p;
     }
   }

@@ -234,7 +234,7 @@ Vec3d Torus::nearest(const Vec3d& p) const {
   return centre_ + turned({out * m.at.cos, out * m.at.sin, up});
 }
 
-Vec3d Torus::way_out(const Vec3d& p) const {
+Vec3d Torus::exit_direction(const Vec3d& p) const {
   const Vec3d v = local(p);
   const Meridian m = meridian(v);
   const double in = profile_depth(m.out, m.up);

@@ -25,7 +25,7 @@ struct SweptArc {
 /// split into arcs, whose convex hulls have supports, and its distances to points are closed forms.
 class Torus {
  public:
-  /// Returns a placed torus. Returns a placed torus. Nothing for other kinds, for tubes that reach
+  /// Returns a placed torus. Nothing for other kinds, for tubes that reach
   /// beyond the axis, for lengths that make no body, and for placements that are no similarity to
   /// within kMaxOrthonormalError.
   [[nodiscard]] static std::optional<Torus> of(const PlacedPrimitive& p, const Vec3l& origin);
@@ -50,7 +50,7 @@ class Torus {
   /// Returns the depth of a point, minus the distance outside; off by at most error().
   [[nodiscard]] double depth(const Vec3d& p) const;
   /// Returns the unit direction from a point in the body to the nearest surface point.
-  [[nodiscard]] Vec3d way_out(const Vec3d& p) const;
+  [[nodiscard]] Vec3d exit_direction(const Vec3d& p) const;
 
   /// Returns a point in coordinates about the centre along the orthonormal axes.
   [[nodiscard]] Vec3d local(const Vec3d& p) const;

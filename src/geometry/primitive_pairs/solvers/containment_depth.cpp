@@ -83,7 +83,7 @@ class LeastDepthInTorus {
       const double next = try_point(p);
       if (!(next < last)) break;
       last = next;
-      n = ring_.way_out(inner_.point_in_body(p));
+      n = ring_.exit_direction(inner_.point_in_body(p));
     }
   }
 
@@ -95,7 +95,8 @@ class LeastDepthInTorus {
     constexpr double kPays = 1e-4;
     for (int step = 0; step < kMaxSlides; ++step) {
       const double before = least_;
-      const Vec3d from = at_, to = support(hull_.shape, ring_.way_out(inner_.point_in_body(from)));
+      const Vec3d from = at_,
+                  to = support(hull_.shape, ring_.exit_direction(inner_.point_in_body(from)));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops / kStops));
       if (!(least_ < before - kPays * std::abs(before))) return;
@@ -114,8 +115,8 @@ struct ArcInRing {
   double least = std::numeric_limits<double>::infinity();
 };
 
-ArcInRing least_of(const PrimitiveOperand& inner, const std::vector<SweptArc>& arcs,
-                   const Torus& ring) {
+ArcInRing min_of(const PrimitiveOperand& inner, const std::vector<SweptArc>& arcs,
+                 const Torus& ring) {
   ArcInRing of;
   for (const SweptArc& arc : arcs) {
     const double least = LeastDepthInTorus(inner, inner.hull(arc), ring).run();
@@ -138,10 +139,10 @@ std::vector<SweptArc> parts_of(const SweptArc& arc) {
 /// in shorter arcs, where it is nearly one.
 double inside_ring(const PrimitiveOperand& inner, const Torus& ring) {
   constexpr int kTimesShorter = 3;
-  ArcInRing of = least_of(inner, inner.arcs(), ring);
+  ArcInRing of = min_of(inner, inner.arcs(), ring);
   double least = of.least;
   for (int i = 0; inner.torus && least > 0 && i < kTimesShorter; ++i) {
-    of = least_of(inner, parts_of(of.arc), ring);
+    of = min_of(inner, parts_of(of.arc), ring);
     least = std::min(least, of.least);
   }
   return least;

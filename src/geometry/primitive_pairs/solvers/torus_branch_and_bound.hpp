@@ -98,8 +98,8 @@ class TorusDistanceSearch {
     cell.bound = std::max(cell.bound, gap.lower);
     cell.id = count_;
     if (cell.bound < best_.upper) open_.push(cell);
-    if (cell.bound > most_parted_) {
-      most_parted_ = cell.bound;
+    if (cell.bound > max_bound_) {
+      max_bound_ = cell.bound;
       best_.normal = gap.normal;
     }
   }
@@ -145,7 +145,7 @@ class TorusDistanceSearch {
   const PrimitiveOperand &a_, &b_;
   double enough_, error_;
   GjkResult best_;
-  double most_parted_ = -std::numeric_limits<double>::infinity();
+  double max_bound_ = -std::numeric_limits<double>::infinity();
   std::size_t count_ = 0;
   std::priority_queue<ArcPair, std::vector<ArcPair>, LowerDistanceFirst> open_;
 };

@@ -16,7 +16,7 @@ namespace strake::io::gltf {
 namespace {
 
 /// Longer texts are of no use, as in extras.
-constexpr std::size_t kMostPropertyBytes = 4096;
+constexpr std::size_t kMaxPropertyBytes = 4096;
 
 constexpr std::array<std::pair<std::string_view, Property::Number>, 10> kNumbers{
     {{"INT8", Property::Number::i8},
@@ -104,11 +104,11 @@ std::size_t offset_bytes(const JsonValue& type) {
 /// Returns a number of the schema as the text of one that is stored.
 std::string number_of_schema(const JsonValue& json, Property::Number number) {
   const double value = json.number().value_or(NAN);
-  constexpr double kMostExact = 9007199254740992.0;  // 2^53
+  constexpr double kMaxExact = 9007199254740992.0;  // 2^53
   if (number == Property::Number::f64 && std::isfinite(value)) return fmt::format("{}", value);
   if (number == Property::Number::f32 && std::fabs(value) <= std::numeric_limits<float>::max())
     return fmt::format("{}", static_cast<float>(value));
-  if (std::fabs(value) < kMostExact && value == std::floor(value))
+  if (std::fabs(value) < kMaxExact && value == std::floor(value))
     return fmt::format("{}", static_cast<std::int64_t>(value));
   return std::string(json.raw());
 }
@@ -174,7 +174,7 @@ std::optional<std::string> Property::element(std::uint64_t index, bool stored) c
              end = entry(string_offsets, string_offset_bytes, index + 1);
   if (!begin || !end || *begin > *end || *end > values.size()) return std::nullopt;
   return std::string(reinterpret_cast<const char*>(values.data()) + *begin,
-                     std::min<std::uint64_t>(*end - *begin, kMostPropertyBytes));
+                     std::min<std::uint64_t>(*end - *begin, kMaxPropertyBytes));
 }
 
 std::optional<Property::Range> Property::elements(std::uint64_t row) const {
@@ -190,7 +190,7 @@ std::optional<std::string> Property::row_text(std::uint64_t row, bool stored) co
   const std::optional<Range> range = elements(row);
   if (!range) return std::nullopt;
   std::string all;
-  for (std::uint64_t i = range->begin; i < range->end && all.size() < kMostPropertyBytes; ++i) {
+  for (std::uint64_t i = range->begin; i < range->end && all.size() < kMaxPropertyBytes; ++i) {
     const std::optional<std::string> one = element(i, stored);
     if (!one) return std::nullopt;
     if (i > range->begin) all += "; ";
@@ -210,13 +210,13 @@ std::uint64_t Property::text_bytes(std::uint64_t row) const {
   constexpr std::uint64_t kNumber = 32;
   const std::optional<Range> range = elements(row);
   if (!range) return 0;
-  std::uint64_t most = (range->end - range->begin) * width * kNumber;
+  std::uint64_t largest = (range->end - range->begin) * width * kNumber;
   if (kind == Kind::text && !array) {
     const auto begin = entry(string_offsets, string_offset_bytes, row),
                end = entry(string_offsets, string_offset_bytes, row + 1);
-    most = begin && end && *begin <= *end ? *end - *begin : 0;
+    largest = begin && end && *begin <= *end ? *end - *begin : 0;
   }
-  return array ? 2 * kMostPropertyBytes : std::min<std::uint64_t>(most, kMostPropertyBytes);
+  return array ? 2 * kMaxPropertyBytes : std::min<std::uint64_t>(largest, kMaxPropertyBytes);
 }
 
 std::optional<Property> read_property(Schema& schema, const std::string& class_name,

@@ -79,12 +79,12 @@ std::optional<std::uint64_t> FeatureIds::of(std::size_t element) const {
 
 std::vector<FeatureIds> read_feature_ids(const JsonValue& extension, const JsonValue& attributes,
                                          const Accessors& accessors) {
-  constexpr std::size_t kMostSets = 16;
+  constexpr std::size_t kMaxSets = 16;
   std::vector<FeatureIds> sets;
   std::size_t stated = 0;
   extension["featureIds"].elements([&](const JsonValue& json) {
     const std::size_t place = stated++;
-    if (sets.size() == kMostSets) return;
+    if (sets.size() == kMaxSets) return;
     const auto [attribute, texture, table, null_id] =
         json.pick<4>({"attribute", "texture", "propertyTable", "nullFeatureId"});
     if (texture.exists() || !table.exists()) return;

@@ -17,14 +17,14 @@ std::map<std::string, JsonValue> members_of(const JsonValue& object) {
 }
 
 std::shared_ptr<const Enumeration> read_enumeration(const JsonValue& json) {
-  constexpr double kMostExact = 1e15;
+  constexpr double kMaxExact = 1e15;
   const auto [type, values] = json.pick<2>({"valueType", "values"});
   const auto made = std::make_shared<Enumeration>();
   made->value_type = type;
   values.elements([&](const JsonValue& value) {
     const auto [name, number] = value.pick<2>({"name", "value"});
     const std::optional<double> code = number.number();
-    if (code && std::fabs(*code) < kMostExact)
+    if (code && std::fabs(*code) < kMaxExact)
       made->words[static_cast<std::int64_t>(*code)] = name.text_value();
   });
   return made;

@@ -16,7 +16,7 @@ struct Enumeration {
   std::map<std::int64_t, std::string> words;
 };
 
-/// The schema of EXT_structural_metadata by names. Each part is read once, when it is asked for: a
+/// The schema of EXT_structural_metadata by names. Each part is read once, when it is requested: a
 /// schema of few bytes may have thousands of properties, and tables that name them all.
 class Schema {
  public:

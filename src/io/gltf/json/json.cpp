@@ -16,9 +16,9 @@ JsonValue JsonDocument::root() const { return {this, settled(0), first_of_piece(
 
 bool JsonDocument::adopt(std::vector<std::vector<JsonEntry>> pieces) {
   constexpr unsigned kNumberBits = 32;
-  std::size_t most = 0;
-  for (const std::vector<JsonEntry>& piece : pieces) most = std::max(most, piece.size());
-  const auto shift = static_cast<unsigned>(std::bit_width(most));
+  std::size_t largest = 0;
+  for (const std::vector<JsonEntry>& piece : pieces) largest = std::max(largest, piece.size());
+  const auto shift = static_cast<unsigned>(std::bit_width(largest));
   if (shift + static_cast<unsigned>(std::bit_width(pieces.size())) > kNumberBits) return false;
   pieces_ = std::move(pieces);
   shift_ = shift;
@@ -49,9 +49,9 @@ std::optional<double> JsonValue::number() const {
 }
 
 std::optional<std::uint64_t> JsonValue::index() const {
-  constexpr double kMost = 9007199254740992.0;  // 2^53
+  constexpr double kMax = 9007199254740992.0;  // 2^53
   const std::optional<double> value = number();
-  if (!value || !(*value >= 0 && *value <= kMost) || *value != std::floor(*value))
+  if (!value || !(*value >= 0 && *value <= kMax) || *value != std::floor(*value))
     return std::nullopt;
   return static_cast<std::uint64_t>(*value);
 }

@@ -29,7 +29,7 @@ struct JsonEntry {
 };
 
 /// An index of a JSON text with one fixed-size entry per value. Strings and numbers stay where they
-/// are in the text and are decoded when asked for, so a document of a hundred megabytes costs
+/// are in the text and are decoded when requested, so a document of a hundred megabytes costs
 /// little more than reading each of its bytes once.
 ///
 /// The text must outlive the document. Follows RFC 8259, except that bytes which are not UTF-8 are

@@ -89,19 +89,19 @@ inline std::uint64_t string_bits(const char* bytes, const ByteMasks& masks, Quot
 /// in strings is no structure. The last bytes are filled up with blanks.
 template <class Visit>
 void scan_structure(std::string_view block, QuoteState state, Visit&& visit) {
-  const auto look = [&](std::size_t offset, const char* bytes) {
+  const auto scan = [&](std::size_t offset, const char* bytes) {
     const detail::ByteMasks masks = detail::byte_masks(bytes);
     const std::uint64_t outside = ~detail::string_bits(bytes, masks, state);
     visit(offset, StructureMasks{masks.structure.opens & outside, masks.structure.closes & outside,
                                  masks.structure.commas & outside});
   };
   std::size_t at = 0;
-  for (; at + 64 <= block.size(); at += 64) look(at, block.data() + at);
+  for (; at + 64 <= block.size(); at += 64) scan(at, block.data() + at);
   if (at == block.size()) return;
   char rest[64];
   std::memset(rest, ' ', sizeof rest);
   std::memcpy(rest, block.data() + at, block.size() - at);
-  look(at, rest);
+  scan(at, rest);
 }
 
 }  // namespace strake::io::gltf

@@ -58,7 +58,7 @@ void append_diagnostics(std::string& out, const Diagnostics& diagnostics) {
 
 Diagnostics diagnostics_of(const JsonValue& scene) {
   // As many as an importer may have; each one is looked for among all.
-  constexpr std::size_t kMostCodes = 500;
+  constexpr std::size_t kMaxCodes = 500;
   Diagnostics diagnostics;
   scene["diagnostics"].elements([&](const JsonValue& json) {
     const std::vector<JsonValue> items = json.items();
@@ -67,7 +67,7 @@ Diagnostics diagnostics_of(const JsonValue& scene) {
     if (!severity) return;
     std::string code = items[1].text_value();
     const auto& counts = diagnostics.counts();
-    const bool fits = counts.size() < kMostCodes ||
+    const bool fits = counts.size() < kMaxCodes ||
                       std::ranges::find(counts, code, &Diagnostics::Count::code) != counts.end();
     if (!is_code(code) || !fits) code = fmt::format("gltf-other-{}", severity_name(*severity));
     diagnostics.add(*severity, code, items[2].text_value(), items[3].text_value());

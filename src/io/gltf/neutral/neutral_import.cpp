@@ -55,8 +55,8 @@ NeutralFacts facts_of(const JsonText& text) {
   facts.incomplete = incomplete.boolean().value_or(false);
   // What is no precision counts as the worst, as precision_um() has it.
   const double um = precision.exists() ? precision.number().value_or(-1) : 0;
-  constexpr double kMostUm = 1e9;
-  facts.precision_um = um >= 0 && um < kMostUm
+  constexpr double kMaxUm = 1e9;
+  facts.precision_um = um >= 0 && um < kMaxUm
                            ? static_cast<float>(um)
                            : precision_um(std::numeric_limits<double>::infinity());
   if (!attributes.is_array()) return facts;
@@ -114,12 +114,12 @@ class NeutralImporter {
 
 /// Few bytes of JSON could have shapes that name the same numbers again and again.
 Status NeutralImporter::check_amount(std::span<const std::uint32_t> shown) const {
-  const std::uint64_t most =
+  const std::uint64_t largest =
       64 * (input_.file.bytes.size() + input_.buffers.total_bytes()) + (1U << 20U);
   std::uint64_t numbers = 0;
   for (const std::uint32_t mesh : shown) {
-    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), most);
-    if (numbers > most)
+    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), largest);
+    if (numbers > largest)
       return Error{ErrorCode::input,
                    "refers to the same vertices so often that they would not fit into the memory",
                    input_.file.path.string(), "export the model again"};

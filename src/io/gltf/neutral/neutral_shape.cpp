@@ -21,7 +21,7 @@ namespace {
 
 using geometry::Vec3d;
 
-constexpr std::size_t kMostVertices = 0xffffffffU;
+constexpr std::size_t kMaxVertices = 0xffffffffU;
 
 class NeutralShapeLoader {
  public:
@@ -29,7 +29,7 @@ class NeutralShapeLoader {
                      std::size_t index)
       : buffers_(buffers),
         accessors_(accessors),
-        says_(mesh["extras"]["strake"]),
+        extras_(mesh["extras"]["strake"]),
         pointer_(fmt::format("/meshes/{}", index)) {
     const std::vector<JsonValue> primitives = mesh["primitives"].items();
     if (!primitives.empty()) primitive_ = primitives[0];
@@ -52,7 +52,7 @@ class NeutralShapeLoader {
 
   const Buffers& buffers_;
   const Accessors& accessors_;
-  JsonValue says_, primitive_;
+  JsonValue extras_, primitive_;
   std::string pointer_;
   NeutralShape result_;
 };
@@ -74,7 +74,7 @@ bool NeutralShapeLoader::analytic(const JsonValue& stated) {
 /// Reads the numbers of a buffer view that extras name; there are `count` of them.
 template <class T>
 bool NeutralShapeLoader::block(const char* name, std::size_t count, std::vector<T>& out) {
-  const Checked<Buffers::BufferView> view = buffers_.view(says_[name]);
+  const Checked<Buffers::BufferView> view = buffers_.view(extras_[name]);
   if (const GltfFault* const fault = fault_of(view)) return fail(*fault);
   const std::span<const std::byte> bytes = std::get<Buffers::BufferView>(view).bytes;
   if (bytes.size() / sizeof(T) != count || bytes.size() % sizeof(T) != 0)
@@ -88,9 +88,9 @@ bool NeutralShapeLoader::points(std::vector<Vec3d>& out) {
   const Checked<Accessor> opened = accessors_.open(primitive_["attributes"]["POSITION"]);
   if (const GltfFault* const fault = fault_of(opened)) return fail(*fault);
   const auto& positions = std::get<Accessor>(opened);
-  if (positions.width != 3 || positions.count > kMostVertices)
+  if (positions.width != 3 || positions.count > kMaxVertices)
     return fail({positions.pointer, "positions must be VEC3"});
-  if (says_["positions"].exists()) {
+  if (extras_["positions"].exists()) {
     if (!block("positions", positions.count, out)) return false;
   } else {
     out.reserve(positions.count);
@@ -129,8 +129,8 @@ bool NeutralShapeLoader::mesh() {
   geometry::TriangleMesh mesh;
   if (!points(mesh.vertices) || !triangles(mesh.vertices.size(), mesh.triangles)) return false;
   if (mesh.triangles.empty()) return fail("it has no triangles");
-  if (says_["faces"].exists() && !block("faces", mesh.triangles.size(), mesh.faces)) return false;
-  mesh.sag_mm = says_["sag_mm"].number().value_or(-1);
+  if (extras_["faces"].exists() && !block("faces", mesh.triangles.size(), mesh.faces)) return false;
+  mesh.sag_mm = extras_["sag_mm"].number().value_or(-1);
   result_.shape = std::move(mesh);
   return true;
 }
@@ -138,7 +138,7 @@ bool NeutralShapeLoader::mesh() {
 bool NeutralShapeLoader::lines() {
   geometry::Polylines lines;
   if (!points(lines.points)) return false;
-  const Checked<Buffers::BufferView> view = buffers_.view(says_["chains"]);
+  const Checked<Buffers::BufferView> view = buffers_.view(extras_["chains"]);
   if (const GltfFault* const fault = fault_of(view)) return fail(*fault);
   const std::size_t entries =
       std::get<Buffers::BufferView>(view).bytes.size() / sizeof(lines.first[0]);
@@ -153,7 +153,7 @@ bool NeutralShapeLoader::lines() {
 }
 
 NeutralShape NeutralShapeLoader::load() {
-  const auto [analytic_json, chains] = says_.pick<2>({"primitive", "chains"});
+  const auto [analytic_json, chains] = extras_.pick<2>({"primitive", "chains"});
   const bool good = analytic_json.exists() ? analytic(analytic_json)
                     : chains.exists()      ? lines()
                                            : mesh();
@@ -173,8 +173,8 @@ std::uint64_t stated_numbers(const Accessors& accessors, const JsonValue& mesh) 
   if (primitives.empty() || mesh["extras"]["strake"]["primitive"].exists()) return 0;
   const auto [attributes, indices] = primitives[0].pick<2>({"attributes", "indices"});
   const auto count = [&](const JsonValue& accessor) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // sums of these must not wrap
-    return std::min(accessors.stated_count(accessor.index().value_or(UINT64_MAX)), kMost);
+    constexpr std::uint64_t kMax = std::uint64_t{1} << 60U;  // sums of these must not wrap
+    return std::min(accessors.stated_count(accessor.index().value_or(UINT64_MAX)), kMax);
   };
   return count(attributes["POSITION"]) + count(indices);
 }

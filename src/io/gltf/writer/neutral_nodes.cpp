@@ -22,13 +22,13 @@ namespace {
 /// Attributes whose names repeat, or that are longer or more than the usual form is read, are
 /// written as a list of pairs as well. A byte becomes six at most, beside quotes, colon and comma.
 bool need_list(const model::Attributes& attributes) {
-  constexpr std::size_t kMost = 512, kMostOfAll = 8192, kAround = 2;
+  constexpr std::size_t kMax = 512, kMaxOfAll = 8192, kAround = 2;
   std::set<std::string_view> names;
   std::size_t all = 0;
   for (const auto& [name, value] : attributes) all += name.size() + value.size() + kAround;
-  if (all > kMostOfAll) return true;
+  if (all > kMaxOfAll) return true;
   return !std::ranges::all_of(attributes, [&](const auto& attribute) {
-    return attribute.first.size() <= kMost && attribute.second.size() <= kMost &&
+    return attribute.first.size() <= kMax && attribute.second.size() <= kMax &&
            names.insert(attribute.first).second;
   });
 }

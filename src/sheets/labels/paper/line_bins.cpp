@@ -38,17 +38,17 @@ bool LineBins::each_bin(const PaperBox& box, Visit&& visit) const {
 }
 
 void LineBins::add(const PaperSegment& line) {
-  const auto seen = clipped(line, paper_);
-  if (!seen) return;
+  const auto visible = clipped(line, paper_);
+  if (!visible) return;
   const auto number = static_cast<std::uint32_t>(lines_.size());
-  lines_.push_back(*seen);
-  const auto [top, bottom] = std::minmax(seen->a.y, seen->b.y);
+  lines_.push_back(*visible);
+  const auto [top, bottom] = std::minmax(visible->a.y, visible->b.y);
   for (std::size_t r = bin_at(top, rows_); r <= bin_at(bottom, rows_); ++r) {
     // Of each row the bins beside the part of the line that lies in it; a little more for rounding.
     constexpr double kRim = 0.01;
     const double from = static_cast<double>(r) * kLineBinMm;
     const auto part =
-        clipped(*seen, {paper_.left, from - kRim, paper_.right, from + kLineBinMm + kRim});
+        clipped(*visible, {paper_.left, from - kRim, paper_.right, from + kLineBinMm + kRim});
     if (!part) continue;
     const auto [left, right] = std::minmax(part->a.x, part->b.x);
     each_bin({left - kRim, from + kLineBinMm / 2, right + kRim, from + kLineBinMm / 2},

@@ -47,13 +47,14 @@ std::size_t OccupancyGrid::row(double y) const { return clamped(std::floor(y / s
 /// quarter of a square of one that is taken.
 template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
-  const auto seen = clipped({a, b}, {0, 0, width_mm_, height_mm_});
-  if (!seen) return;
-  const double dx = (seen->b.x - seen->a.x) / size_, dy = (seen->b.y - seen->a.y) / size_;
+  const auto visible = clipped({a, b}, {0, 0, width_mm_, height_mm_});
+  if (!visible) return;
+  const double dx = (visible->b.x - visible->a.x) / size_,
+               dy = (visible->b.y - visible->a.y) / size_;
   const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
   const FixedPoint by_x = fixed_point(dx / steps), by_y = fixed_point(dy / steps);
-  FixedPoint x = fixed_point(seen->a.x / size_) + by_x / 2,
-             y = fixed_point(seen->a.y / size_) + by_y / 2;
+  FixedPoint x = fixed_point(visible->a.x / size_) + by_x / 2,
+             y = fixed_point(visible->a.y / size_) + by_y / 2;
   for (double i = 0; i < steps; ++i, x += by_x, y += by_y)
     if (!take(whole(y, rows_) * columns_ + whole(x, columns_))) return;
 }

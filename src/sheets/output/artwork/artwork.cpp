@@ -263,7 +263,7 @@ class PdfCanvas final : public ArtworkCanvas {
   }
 
   void paint(const PathBuilder& path, const SvgStyle& style, double scale,
-             TellStyle /*tell*/) override {
+             ReportUnsupported /*tell*/) override {
     const bool stroked = style.stroke && style.stroke_width > 0;
     const bool filled = style.fill && path.has_inside();
     out_ += "q\n";

@@ -31,7 +31,7 @@ class ArtworkCanvas {
   [[nodiscard]] virtual double width_of(const std::string& text) = 0;
   /// Paints a path, which has something to paint. Pens are enlarged by `scale`.
   virtual void paint(const PathBuilder& path, const SvgStyle& style, double scale,
-                     TellStyle tell) = 0;
+                     ReportUnsupported report) = 0;
   virtual void write(const ArtworkText& text) = 0;
 };
 

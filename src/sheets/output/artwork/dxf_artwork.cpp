@@ -66,9 +66,9 @@ class OutlineReader {
       return std::hypot(p.x - 2 * q.x + r.x, p.y - 2 * q.y + r.y);
     };
     constexpr double kWithinMm = 0.01;
-    const double most = std::max(bend(a, b, c), bend(b, c, d));
+    const double largest = std::max(bend(a, b, c), bend(b, c, d));
     const int chords =
-        static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * most / kWithinMm)), 1.0, 1000.0));
+        static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * largest / kWithinMm)), 1.0, 1000.0));
     for (int i = 1; i < chords; ++i) {
       const double t = static_cast<double>(i) / chords, s = 1 - t;
       const std::array weights{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
@@ -95,15 +95,15 @@ class DxfCanvas final : public ArtworkCanvas {
   }
 
   void paint(const PathBuilder& path, const SvgStyle& style, double scale,
-             TellStyle tell) override {
+             ReportUnsupported report) override {
     const std::vector<Outline> outlines = OutlineReader().read(path.operators());
     if (style.fill && path.has_inside()) {
-      if (outlines.size() > 1) tell("what lies within filled paths");
+      if (outlines.size() > 1) report("what lies within filled paths");
       paper_.use_pen({{*style.fill, 0}});
       paper_.add_filled(layer_, outlines.front());
     }
     if (style.stroke && style.stroke_width > 0) {
-      if (!style.dashes.empty()) tell("stroke-dasharray");
+      if (!style.dashes.empty()) report("stroke-dasharray");
       paper_.use_pen({{*style.stroke, style.stroke_width * scale}});
       for (const Outline& outline : outlines) paper_.add_lines(layer_, outline);
     }
@@ -127,7 +127,7 @@ class DxfCanvas final : public ArtworkCanvas {
   /// to lean, no more than TEXT may, after it was stretched, which every transform is. Nothing for
   /// one that is squeezed to a line.
   static std::optional<drawing::dxf::TextPlace> place_of(const Affine& m) {
-    constexpr double kMostDegrees = 85;
+    constexpr double kMaxDegrees = 85;
     // Along the base line and upwards, where y points up.
     const double det = m.b * m.c - m.a * m.d;
     const double side = det < 0 ? -1 : 1;
@@ -146,7 +146,7 @@ class DxfCanvas final : public ArtworkCanvas {
     place.lean_deg = degrees(lean, height);
     place.mirrored = side < 0;
     if (!(place.height > 0)) return std::nullopt;
-    place.lean_deg = std::clamp(place.lean_deg, -kMostDegrees, kMostDegrees);
+    place.lean_deg = std::clamp(place.lean_deg, -kMaxDegrees, kMaxDegrees);
     return place;
   }
 

@@ -89,7 +89,7 @@ std::optional<int> place_among(const std::array<std::string_view, N>& words,
 
 class StyleReader {
  public:
-  StyleReader(SvgStyle& style, TellStyle tell) : style_(style), tell_(tell) {}
+  StyleReader(SvgStyle& style, ReportUnsupported report) : style_(style), report_(report) {}
 
   /// Takes what a property says; what is said of other things than painting is no affair of ours.
   void take(std::string_view property, std::string_view value) {
@@ -98,7 +98,7 @@ class StyleReader {
     std::optional<bool> taken = take_paint(property, value);
     if (!taken) taken = take_line(property, value);
     if (!taken) taken = take_rest(property, value);
-    if (!*taken) tell_(std::string(property) + ": " + std::string(value.substr(0, 40)));
+    if (!*taken) report_(std::string(property) + ": " + std::string(value.substr(0, 40)));
   }
 
  private:
@@ -186,7 +186,7 @@ class StyleReader {
   }
 
   SvgStyle& style_;
-  TellStyle tell_;
+  ReportUnsupported report_;
 };
 
 void take_declarations(StyleReader& reader, std::string_view declarations) {
@@ -212,7 +212,7 @@ bool StyleSheet::Rule::picks(const SvgElement& element) const {
   return found;
 }
 
-void StyleSheet::add(std::string_view css, TellStyle tell) {
+void StyleSheet::add(std::string_view css, ReportUnsupported report) {
   std::string text(css);
   for (std::size_t at = text.find("/*"); at != std::string::npos; at = text.find("/*", at)) {
     const std::size_t end = text.find("*/", at + 2);
@@ -222,7 +222,7 @@ void StyleSheet::add(std::string_view css, TellStyle tell) {
     const std::size_t open = rule.find('{');
     if (open == std::string_view::npos) return;
     for_each_part(rule.substr(0, open), ',', [&](std::string_view selector) {
-      add_rule(selector, rule.substr(open + 1), tell);
+      add_rule(selector, rule.substr(open + 1), report);
     });
   });
   std::sort(rules_.begin(), rules_.end(), [](const Rule& a, const Rule& b) {
@@ -231,7 +231,7 @@ void StyleSheet::add(std::string_view css, TellStyle tell) {
 }
 
 void StyleSheet::add_rule(std::string_view selector, std::string_view declarations,
-                          TellStyle tell) {
+                          ReportUnsupported report) {
   Rule rule{{}, {}, {}, std::string(declarations), 0, rules_.size()};
   const std::size_t mark = std::min(selector.find_first_of(".#"), selector.size());
   rule.name = selector.substr(0, mark);
@@ -240,13 +240,13 @@ void StyleSheet::add_rule(std::string_view selector, std::string_view declaratio
     (selector[mark] == '.' ? rule.class_name : rule.id) = selector.substr(mark + 1);
   const std::string rest = rule.name + rule.class_name + rule.id;
   if (rest.find_first_of(" >+~:[.#*@") != std::string::npos) {
-    tell("the style of " + in_quotes(selector.substr(0, 40)));
+    report("the style of " + in_quotes(selector.substr(0, 40)));
     return;
   }
   // Each element asks each rule.
-  constexpr std::size_t kMostRules = 1000;
-  if (rules_.size() == kMostRules) {
-    tell("the styles beyond the first 1000");
+  constexpr std::size_t kMaxRules = 1000;
+  if (rules_.size() == kMaxRules) {
+    report("the styles beyond the first 1000");
     return;
   }
   rule.weight = !rule.id.empty() ? 100U : !rule.class_name.empty() ? 10U : 0U;
@@ -255,9 +255,9 @@ void StyleSheet::add_rule(std::string_view selector, std::string_view declaratio
 }
 
 SvgStyle StyleSheet::style_of(const SvgElement& element, const SvgStyle& parent,
-                              TellStyle tell) const {
+                              ReportUnsupported report) const {
   SvgStyle style = parent;
-  StyleReader reader(style, tell);
+  StyleReader reader(style, report);
   for (const auto& [key, value] : element.attributes)
     if (key != "style") reader.take(key, value);
   for (const Rule& rule : rules_)

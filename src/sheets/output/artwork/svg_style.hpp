@@ -27,18 +27,18 @@ struct SvgStyle {
 };
 
 /// Takes what cannot be painted as it is said: "stroke: url(#blue)".
-using TellStyle = parallel::FunctionRef<void(const std::string& what)>;
+using ReportUnsupported = parallel::FunctionRef<void(const std::string& what)>;
 
 /// The style sheets of a template. Selectors of one element are understood: a name, a class, an id,
 /// a name with a class, `*`, and lists of these.
 class StyleSheet {
  public:
-  void add(std::string_view css, TellStyle tell);
+  void add(std::string_view css, ReportUnsupported report);
 
   /// Returns the style of an element within another one: the attributes first, over them the style
   /// sheets, over them its own `style`.
   [[nodiscard]] SvgStyle style_of(const SvgElement& element, const SvgStyle& parent,
-                                  TellStyle tell) const;
+                                  ReportUnsupported report) const;
 
  private:
   struct Rule {
@@ -48,7 +48,7 @@ class StyleSheet {
     std::size_t order = 0;     ///< in which it was added
     [[nodiscard]] bool picks(const SvgElement& element) const;
   };
-  void add_rule(std::string_view selector, std::string_view declarations, TellStyle tell);
+  void add_rule(std::string_view selector, std::string_view declarations, ReportUnsupported report);
 
   std::vector<Rule> rules_;  ///< by weight
 };

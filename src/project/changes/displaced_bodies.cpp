@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/changes/same_form.hpp"
+#include "project/changes/displaced_bodies.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vec3d;
 
-/// What numbers cannot tell apart, besides what the grid rounds.
+/// What numbers cannot distinguish, besides what the grid rounds.
 constexpr double kGridMm = 0.001;
 constexpr double kMmOfUm = 0.001;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/view/view_files.hpp"
-
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -62,14 +62,9 @@ RunFiles files_of_drawing(const ViewDocument& drawing, const std::vector<std::st
 
 }  // namespace
 
-void DrawnIds::add(const ViewDocument& drawing) {
-  for (const auto list : kLists)
-    for (const ViewObject& o : drawing.*list) ids_.emplace(o.file, o.id);
-}
-
 Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
-                                std::span<const std::string> asked) {
-  return match_documents(before, after, asked, labels_of_drawing, files_of_drawing);
+                                std::span<const std::string> given_pairs) {
+  return match_documents(before, after, given_pairs, labels_of_drawing, files_of_drawing);
 }
 
 }  // namespace strake::report

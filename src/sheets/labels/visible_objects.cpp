@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/labels/seen_objects.hpp"
+#include "sheets/labels/visible_objects.hpp"
 
 #include <algorithm>
 
@@ -7,8 +7,9 @@
 
 namespace strake::sheets {
 
-std::vector<SeenObject> seen_objects(const drawing::Ink& ink, const std::vector<bool>& picked) {
-  std::vector<SeenObject> all;
+std::vector<VisibleObject> visible_objects(const drawing::Ink& ink,
+                                           const std::vector<bool>& picked) {
+  std::vector<VisibleObject> all;
   double longest = 0;
   for (const drawing::Line& line : ink.lines) {
     if (line.state != drawing::LineState::visible || !picked[model::index(line.object)]) continue;
@@ -20,17 +21,17 @@ std::vector<SeenObject> seen_objects(const drawing::Ink& ink, const std::vector<
           {line.object, {}, {line.a_paper.x, line.a_paper.y, line.a_paper.x, line.a_paper.y}, 0});
       longest = 0;
     }
-    SeenObject& seen = all.back();
-    seen.length += length;
+    VisibleObject& shown_object = all.back();
+    shown_object.length += length;
     if (length > longest) {
       longest = length;
-      seen.longest = segment;
+      shown_object.longest = segment;
     }
     for (const PaperPoint& p : {line.a_paper, line.b_paper}) {
-      seen.box.left = std::min(seen.box.left, p.x);
-      seen.box.right = std::max(seen.box.right, p.x);
-      seen.box.top = std::min(seen.box.top, p.y);
-      seen.box.bottom = std::max(seen.box.bottom, p.y);
+      shown_object.box.left = std::min(shown_object.box.left, p.x);
+      shown_object.box.right = std::max(shown_object.box.right, p.x);
+      shown_object.box.top = std::min(shown_object.box.top, p.y);
+      shown_object.box.bottom = std::max(shown_object.box.bottom, p.y);
     }
   }
   return all;

@@ -15,20 +15,20 @@ namespace strake::project {
 
 /// What somebody knows of a project: its last run, and the last change of a status or comment. Both
 /// are 0 where there is none yet.
-struct SeenState {
+struct KnownState {
   std::int64_t run = 0, event = 0;
-  friend bool operator==(const SeenState&, const SeenState&) = default;
+  friend bool operator==(const KnownState&, const KnownState&) = default;
 };
 
 /// Returns what there is to know now.
-[[nodiscard]] Result<SeenState> state_now(Database& database);
+[[nodiscard]] Result<KnownState> current_state(Database& database);
 
 /// A clash about which nothing was decided, and why: a whole sentence.
 struct RefusedDecision {
   std::string key, why;
 };
 
-struct DecisionsAsSeen {
+struct DecideOutcome {
   std::uint64_t changed = 0;  ///< rows, as decide() counts them
   std::vector<RefusedDecision> refused;
   std::vector<std::int64_t> decided;  ///< the rows that the decision is about
@@ -38,14 +38,15 @@ struct DecisionsAsSeen {
 /// A clash that a person or a run changed since is refused, as is one that a later run does not
 /// find or measures otherwise, whatever events were seen, and a key that no clash has: all others
 /// stand. To be called within a transaction. Errors: those of decide(), but for unknown keys.
-[[nodiscard]] Result<DecisionsAsSeen> decide_as_seen(Database& database,
-                                                     std::span<const std::string> keys,
-                                                     const ClashDecision& decision,
-                                                     const SeenState& seen);
+[[nodiscard]] Result<DecideOutcome> decide_if_unchanged(Database& database,
+                                                        std::span<const std::string> keys,
+                                                        const ClashDecision& decision,
+                                                        const KnownState& known);
 
 /// Returns the rows of the clashes of which a status or comment changed after an event, the first
-/// `most` of them in the order of their ids.
+/// `limit` of them in the order of their ids.
 [[nodiscard]] Result<std::vector<std::int64_t>> changed_since(Database& database,
-                                                              std::int64_t event, std::size_t most);
+                                                              std::int64_t event,
+                                                              std::size_t limit);
 
 }  // namespace strake::project

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pictures/viewpoint/sight_buffer.hpp"
+#include "pictures/viewpoint/visibility_buffer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace strake::pictures {
 
-SightBuffer::SightBuffer(const Window& window, const NearTriangles& triangles)
+VisibilityBuffer::VisibilityBuffer(const Window& window, const NearTriangles& triangles)
     : points_(window.columns), at_(std::size_t{window.columns} * window.rows) {
   for (const TriangleRun& run : triangles.runs(true))
     for (std::uint32_t i = run.first; i < run.end; ++i)
-      if (const auto seen = seen_triangle(window, triangles[i], i))
-        add(window, *seen, triangles[i].role);
+      if (const auto projected = project_triangle(window, triangles[i], i))
+        add(window, *projected, triangles[i].role);
   bound();
 }
 
-void SightBuffer::add(const Window& window, const SeenTriangle& triangle, Role role) {
+void VisibilityBuffer::add(const Window& window, const ProjectedTriangle& triangle, Role role) {
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(window, triangle, row);
+    const TriangleRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       const double depth = in_row.depth(column);
@@ -28,7 +28,7 @@ void SightBuffer::add(const Window& window, const SeenTriangle& triangle, Role r
 }
 
 /// Finds where the two may be hidden.
-void SightBuffer::bound() {
+void VisibilityBuffer::bound() {
   own_ = {1e300, -1e300, 1e300, -1e300, 1e300, -1e300};
   for (std::uint32_t row = 0; row < points_; ++row)
     for (std::uint32_t column = 0; column < points_; ++column) {
@@ -42,24 +42,25 @@ void SightBuffer::bound() {
     }
 }
 
-bool SightBuffer::may_hide(const WindowRange& range) const {
+bool VisibilityBuffer::may_hide(const WindowRange& range) const {
   return range.nearest > own_.farthest && range.left <= own_.right && range.right >= own_.left &&
          range.top <= own_.bottom && range.bottom >= own_.top;
 }
 
-void SightBuffer::cover(const Window& window, const NearTriangles& triangles) {
+void VisibilityBuffer::cover(const Window& window, const NearTriangles& triangles) {
   for (const TriangleRun& run : triangles.runs(false)) {
     const WindowRange range = range_of(window, run.box);
     if (range.farthest > window.eye_mm || !may_hide(range)) continue;
     for (std::uint32_t i = run.first; i < run.end; ++i)
-      if (const auto seen = seen_triangle(window, triangles[i], i)) cover(window, *seen);
+      if (const auto projected = project_triangle(window, triangles[i], i))
+        cover(window, *projected);
   }
 }
 
-void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
+void VisibilityBuffer::cover(const Window& window, const ProjectedTriangle& triangle) {
   if (triangle.nearest <= own_.farthest) return;
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(window, triangle, row);
+    const TriangleRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       Point& point = points[column];
@@ -69,7 +70,7 @@ void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
   }
 }
 
-SeenShares SightBuffer::shares() const {
+VisibleShares VisibilityBuffer::shares() const {
   const double middle = points_ * 0.5, disc = middle * middle, round_point = points_ / 9.0;
   std::uint32_t in_disc = 0, of_a = 0, of_b = 0, at_point = 0, both_at_point = 0;
   for (std::uint32_t row = 0; row < points_; ++row)

@@ -14,25 +14,25 @@
 namespace strake::project {
 
 /// What a run said of a clash.
-struct SightAt {
+struct ObservationAt {
   enum class Kind : std::uint8_t {
     not_known,  ///< a later run found it first
     found,
     gone,
     cannot_tell,
   };
-  Kind sight = Kind::not_known;
+  Kind kind = Kind::not_known;
   Measure now;      ///< where it was found
   std::string why;  ///< why it cannot tell, or does not know
 };
 
-using SightPair = std::pair<SightAt, SightAt>;
+using ObservationPair = std::pair<ObservationAt, ObservationAt>;
 
-class Sights {
+class Observations {
  public:
-  [[nodiscard]] static Result<Sights> of(Database& database);
+  [[nodiscard]] static Result<Observations> of(Database& database);
 
-  using Take = std::function<Status(const ClashRow&, const SightPair&)>;
+  using Take = std::function<Status(const ClashRow&, const ObservationPair&)>;
   /// Tells of each clash of a test what two runs said, in the order in which they were found.
   /// Errors: those of `take`; input for a damaged project.
   [[nodiscard]] Status each(std::int64_t test, const std::pair<std::int64_t, std::int64_t>& runs,
@@ -42,7 +42,7 @@ class Sights {
   [[nodiscard]] Result<std::string> allowed_by(std::int64_t clash, std::int64_t run);
 
  private:
-  Sights(Database& database, Statement allowed);
+  Observations(Database& database, Statement allowed);
   Database* database_;
   Statement allowed_;
 };

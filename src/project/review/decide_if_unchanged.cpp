@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/review/decide_as_seen.hpp"
+#include "project/review/decide_if_unchanged.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ Result<std::int64_t> greatest_id(Database& database, std::string_view table) {
 /// Tells what became of clashes since somebody saw them.
 class LaterChanges {
  public:
-  static Result<LaterChanges> of(Database& database, const SeenState& seen) {
+  static Result<LaterChanges> of(Database& database, const KnownState& known) {
     // Who is told the status that a later run gave has still not seen what that run found.
     Result<Statement> events = database.prepare(
         "SELECT who, before, after, comment, run FROM event WHERE clash = ?1 AND "
@@ -34,78 +34,78 @@ class LaterChanges {
     Result<Statement> former = database.prepare(
         "SELECT run FROM former WHERE clash = ?1 AND run > ?2 ORDER BY run DESC LIMIT 1");
     if (!former) return former.error();
-    return LaterChanges(std::move(*events), std::move(*former), seen);
+    return LaterChanges(std::move(*events), std::move(*former), known);
   }
 
   /// Returns the last of it in a sentence; nothing where nothing happened.
   Result<std::optional<std::string>> last_of(const ClashRow& clash) {
-    Result<std::optional<std::string>> told = last_event(clash.id);
-    if (!told || *told) return told;
-    if (clash.gone_run && *clash.gone_run > seen_.run)
+    Result<std::optional<std::string>> change = last_event(clash.id);
+    if (!change || *change) return change;
+    if (clash.gone_run && *clash.gone_run > known_.run)
       return std::optional("run " + std::to_string(*clash.gone_run) + " does not find it any more");
     return other_finding(clash);
   }
 
  private:
-  LaterChanges(Statement events, Statement former, const SeenState& seen)
-      : events_(std::move(events)), former_(std::move(former)), seen_(seen) {}
+  LaterChanges(Statement events, Statement former, const KnownState& known)
+      : events_(std::move(events)), former_(std::move(former)), known_(known) {}
 
   Result<std::optional<std::string>> last_event(std::int64_t clash) {
-    events_.bind(1, clash).bind(2, seen_.event).bind(3, seen_.run);
+    events_.bind(1, clash).bind(2, known_.event).bind(3, known_.run);
     const Result<bool> there = events_.step();
     if (!there) return there.error();
-    std::optional<std::string> told;
-    if (*there) told = sentence();
+    std::optional<std::string> change;
+    if (*there) change = sentence();
     events_.reset();
-    return told;
+    return change;
   }
 
   /// What the event says at which the statement stands.
   [[nodiscard]] std::string sentence() const {
     const std::string who(events_.text(0)), after(events_.text(2)), comment(events_.text(3));
-    const std::string says = comment.empty() ? std::string() : ": " + comment;
-    if (!events_.is_null(4)) return "a later run made it " + after + says;
-    if (events_.text(1) != after) return who + " made it " + after + " meanwhile" + says;
-    return who + " wrote about it meanwhile" + says;
+    const std::string comment_suffix = comment.empty() ? std::string() : ": " + comment;
+    if (!events_.is_null(4)) return "a later run made it " + after + comment_suffix;
+    if (events_.text(1) != after) return who + " made it " + after + " meanwhile" + comment_suffix;
+    return who + " wrote about it meanwhile" + comment_suffix;
   }
 
   /// What a later run found that was something else before.
   Result<std::optional<std::string>> other_finding(const ClashRow& clash) {
-    former_.bind(1, clash.id).bind(2, seen_.run);
+    former_.bind(1, clash.id).bind(2, known_.run);
     const Result<bool> there = former_.step();
     if (!there) return there.error();
-    std::optional<std::string> told;
+    std::optional<std::string> change;
     if (*there) {
       const std::string run = "run " + std::to_string(former_.integer(0));
-      told = clash.unknown.empty() ? fmt::format("{} finds it otherwise: {}, d = {:.3f} mm", run,
-                                                 name(clash.now.cls), clash.now.d_mm)
-                                   : run + " cannot tell whether it is there: " + clash.unknown;
+      change = clash.unknown.empty() ? fmt::format("{} finds it otherwise: {}, d = {:.3f} mm", run,
+                                                   name(clash.now.cls), clash.now.d_mm)
+                                     : run + " cannot tell whether it is there: " + clash.unknown;
     }
     former_.reset();
-    return told;
+    return change;
   }
 
   Statement events_, former_;
-  SeenState seen_;
+  KnownState known_;
 };
 
 }  // namespace
 
-Result<SeenState> state_now(Database& database) {
+Result<KnownState> current_state(Database& database) {
   const Result<std::int64_t> run = greatest_id(database, "run");
   if (!run) return run.error();
   const Result<std::int64_t> event = greatest_id(database, "event");
   if (!event) return event.error();
-  return SeenState{*run, *event};
+  return KnownState{*run, *event};
 }
 
-Result<DecisionsAsSeen> decide_as_seen(Database& database, std::span<const std::string> keys,
-                                       const ClashDecision& decision, const SeenState& seen) {
+Result<DecideOutcome> decide_if_unchanged(Database& database, std::span<const std::string> keys,
+                                          const ClashDecision& decision, const KnownState& known) {
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
-  Result<LaterChanges> changes = LaterChanges::of(database, seen);
+  Result<LaterChanges> changes = LaterChanges::of(database, known);
   if (!changes) return changes.error();
-  DecisionsAsSeen outcome;
+  DecideOutcome outcome;
   std::vector<std::string> standing;
   for (const std::string& key : keys) {
     const Result<std::optional<ClashRow>> row = rows->find(std::string_view(key));
@@ -130,12 +130,12 @@ Result<DecisionsAsSeen> decide_as_seen(Database& database, std::span<const std::
 }
 
 Result<std::vector<std::int64_t>> changed_since(Database& database, std::int64_t event,
-                                                std::size_t most) {
+                                                std::size_t limit) {
   Result<Statement> select =
       database.prepare("SELECT DISTINCT clash FROM event WHERE id > ?1 ORDER BY clash LIMIT ?2");
   if (!select) return select.error();
   select->bind(1, event);
-  select->bind(2, static_cast<std::int64_t>(most));
+  select->bind(2, static_cast<std::int64_t>(limit));
   std::vector<std::int64_t> clashes;
   for (;;) {
     const Result<bool> there = select->step();

@@ -12,24 +12,24 @@ namespace strake::pictures {
 // Decision 0105 says what is looked at, and what it costs.
 
 /// What a window shows of the two.
-struct SeenShares {
+struct VisibleShares {
   double a = 0, b = 0;  ///< shares of the disc within the window
   double at_point = 0;  ///< the share of the two of what lies round the middle
 };
 
 /// Which of the two objects of a clash each point of a window shows: an item buffer that knows
 /// nothing of all others but what of the two they hide.
-class SightBuffer {
+class VisibilityBuffer {
  public:
   /// Nothing is seen.
-  SightBuffer() = default;
+  VisibilityBuffer() = default;
   /// The two alone. The window has no box and no planes, and as many rows as columns.
-  SightBuffer(const Window& window, const NearTriangles& triangles);
+  VisibilityBuffer(const Window& window, const NearTriangles& triangles);
 
   /// Takes away what others hide.
   void cover(const Window& window, const NearTriangles& triangles);
 
-  [[nodiscard]] SeenShares shares() const;
+  [[nodiscard]] VisibleShares shares() const;
 
  private:
   struct Point {
@@ -37,8 +37,8 @@ class SightBuffer {
     Role role = Role::other;
     bool closed = false;  ///< cut open: nothing lies before it
   };
-  void add(const Window& window, const SeenTriangle& triangle, Role role);
-  void cover(const Window& window, const SeenTriangle& triangle);
+  void add(const Window& window, const ProjectedTriangle& triangle, Role role);
+  void cover(const Window& window, const ProjectedTriangle& triangle);
   void bound();
   [[nodiscard]] bool may_hide(const WindowRange& range) const;
 

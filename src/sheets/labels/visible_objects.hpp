@@ -12,7 +12,7 @@
 namespace strake::sheets {
 
 /// An object with visible lines.
-struct SeenObject {
+struct VisibleObject {
   model::ObjectId object{};
   PaperSegment longest;  ///< its longest visible line
   PaperBox box;          ///< box of its visible lines
@@ -20,8 +20,8 @@ struct SeenObject {
 };
 
 /// Returns the picked objects that have visible lines, in the order of the model.
-[[nodiscard]] std::vector<SeenObject> seen_objects(const drawing::Ink& ink,
-                                                   const std::vector<bool>& picked);
+[[nodiscard]] std::vector<VisibleObject> visible_objects(const drawing::Ink& ink,
+                                                         const std::vector<bool>& picked);
 
 /// Returns where leaders to an object may end: the middle of its longest visible line and, on long
 /// ones, the quarters.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/history/sights.hpp"
+#include "project/history/observations.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,17 +12,17 @@ namespace strake::project {
 namespace {
 
 /// What runs before one said of a clash.
-struct FormerSight {
+struct FormerObservation {
   std::int64_t run = 0;
-  SightAt said;
+  ObservationAt observation;
 };
 
-using FormerSights = std::unordered_map<std::int64_t, std::vector<FormerSight>>;
+using FormerObservations = std::unordered_map<std::int64_t, std::vector<FormerObservation>>;
 
-std::optional<SightAt::Kind> kind_of(std::string_view word) {
-  if (word == "found") return SightAt::Kind::found;
-  if (word == "gone") return SightAt::Kind::gone;
-  if (word == "cannot tell") return SightAt::Kind::cannot_tell;
+std::optional<ObservationAt::Kind> kind_of(std::string_view word) {
+  if (word == "found") return ObservationAt::Kind::found;
+  if (word == "gone") return ObservationAt::Kind::gone;
+  if (word == "cannot tell") return ObservationAt::Kind::cannot_tell;
   return std::nullopt;
 }
 
@@ -34,14 +34,14 @@ std::optional<clash::Class> class_of(std::string_view word) {
 }
 
 /// Returns what the table `former` has of the clashes of a test, of each by run.
-Result<FormerSights> read_former(Database& database, std::int64_t test) {
+Result<FormerObservations> read_former(Database& database, std::int64_t test) {
   Result<Statement> select = database.prepare(
       "SELECT former.clash, former.run, former.sight, former.class, former.d_mm, former.regions, "
       "former.why FROM former JOIN clash ON clash.id = former.clash WHERE clash.test = ?1 "
       "ORDER BY former.clash, former.run");
   if (!select) return select.error();
   select->bind(1, test);
-  FormerSights all;
+  FormerObservations all;
   for (;;) {
     const Result<bool> there = select->step();
     if (!there) return there.error();
@@ -57,39 +57,40 @@ Result<FormerSights> read_former(Database& database, std::int64_t test) {
   }
 }
 
-SightAt sight_now(const ClashRow& row) {
-  if (row.gone_run) return {SightAt::Kind::gone, row.now, {}};
-  if (!row.unknown.empty()) return {SightAt::Kind::cannot_tell, row.now, row.unknown};
-  return {SightAt::Kind::found, row.now, {}};
+ObservationAt current_observation(const ClashRow& row) {
+  if (row.gone_run) return {ObservationAt::Kind::gone, row.now, {}};
+  if (!row.unknown.empty()) return {ObservationAt::Kind::cannot_tell, row.now, row.unknown};
+  return {ObservationAt::Kind::found, row.now, {}};
 }
 
 /// Returns what a run said: what the first one after it that said something else found written, or
 /// what is written today.
-SightAt sight_at(const ClashRow& row, const std::vector<FormerSight>* former, std::int64_t run) {
+ObservationAt observation_at(const ClashRow& row, const std::vector<FormerObservation>* former,
+                             std::int64_t run) {
   if (run < row.first_run) return {};
   if (former != nullptr) {
-    const auto later = std::ranges::upper_bound(*former, run, {}, &FormerSight::run);
-    if (later != former->end()) return later->said;
+    const auto later = std::ranges::upper_bound(*former, run, {}, &FormerObservation::run);
+    if (later != former->end()) return later->observation;
   }
-  return sight_now(row);
+  return current_observation(row);
 }
 
 }  // namespace
 
-Sights::Sights(Database& database, Statement allowed)
+Observations::Observations(Database& database, Statement allowed)
     : database_(&database), allowed_(std::move(allowed)) {}
 
-Result<Sights> Sights::of(Database& database) {
+Result<Observations> Observations::of(Database& database) {
   Result<Statement> allowed = database.prepare(
       "SELECT comment FROM event WHERE clash = ?1 AND run <= ?2 AND after = 'resolved' "
       "ORDER BY id DESC LIMIT 1");
   if (!allowed) return allowed.error();
-  return Sights(database, std::move(*allowed));
+  return Observations(database, std::move(*allowed));
 }
 
-Status Sights::each(std::int64_t test, const std::pair<std::int64_t, std::int64_t>& runs,
-                    const Take& take) {
-  const Result<FormerSights> former = read_former(*database_, test);
+Status Observations::each(std::int64_t test, const std::pair<std::int64_t, std::int64_t>& runs,
+                          const Take& take) {
+  const Result<FormerObservations> former = read_former(*database_, test);
   if (!former) return former.error();
   Result<Statement> select = database_->prepare("SELECT " + std::string(kClashColumns) +
                                                 " FROM clash WHERE test = ?1 ORDER BY id");
@@ -102,14 +103,14 @@ Status Sights::each(std::int64_t test, const std::pair<std::int64_t, std::int64_
     const Result<ClashRow> row = row_of(*database_, *select);
     if (!row) return row.error();
     const auto at = former->find(row->id);
-    const auto* const said = at == former->end() ? nullptr : &at->second;
-    const Status status =
-        take(*row, {sight_at(*row, said, runs.first), sight_at(*row, said, runs.second)});
+    const auto* const observation = at == former->end() ? nullptr : &at->second;
+    const Status status = take(*row, {observation_at(*row, observation, runs.first),
+                                      observation_at(*row, observation, runs.second)});
     if (!status) return status;
   }
 }
 
-Result<std::string> Sights::allowed_by(std::int64_t clash, std::int64_t run) {
+Result<std::string> Observations::allowed_by(std::int64_t clash, std::int64_t run) {
   const Result<bool> there = allowed_.bind(1, clash).bind(2, run).step();
   if (!there) return there.error();
   const std::string cause(*there ? allowed_.text(0) : std::string_view());
