@@ -41,6 +41,9 @@ python3 -m venv "$folder/clean"
 program=$folder/clean/bin/strake
 if [ -x build/release/bin/strake ]; then
   say "wheel: its program against the one of build/release, byte by byte"
-  python3 scripts/same_bytes.py build/release/bin/strake "$program"
+  python3 scripts/same_bytes.py build/release/bin/strake "$program" || {
+    echo "wheel: they differ; if build/release is of other sources, ./run build" >&2
+    exit 1
+  }
 fi
 say "wheel: built $(ls "$folder"/dist/strake-*.whl)"
