@@ -25,7 +25,8 @@ std::size_t part_by(std::span<T> items, GoesFirst&& goes_first) {
   }
 }
 
-/// Moves the least `count` items to the front. `less` tells any two items apart, so that these are
+/// Moves the least `count` items to the front, and behind them, where there are more, the least of
+/// the others. `less` tells any two items apart, so that these are
 /// the same ones everywhere; the order within either side is each standard library's own, and
 /// whoever looks at it sorts it first. Built with STRAKE_OTHER_ORDER it is another one, so that
 /// tests show who does not.
@@ -35,7 +36,7 @@ void part_at(std::span<T> items, std::size_t count, Less&& less) {
   std::nth_element(items.begin(), middle, items.end(), less);
 #ifdef STRAKE_OTHER_ORDER
   std::reverse(items.begin(), middle);
-  std::reverse(middle, items.end());
+  if (middle != items.end()) std::reverse(middle + 1, items.end());
 #endif
 }
 

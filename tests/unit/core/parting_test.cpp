@@ -27,6 +27,9 @@ TEST(Parting, at_a_number_has_the_least_in_front) {
   for (std::size_t count = 0; count <= 6; ++count) {
     std::vector<int> numbers{4, 1, 5, 0, 3, 2};
     part_at(std::span(numbers), count, std::less());
+    if (count < numbers.size()) {
+      EXPECT_EQ(numbers[count], static_cast<int>(count));
+    }
     std::sort(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
     std::sort(numbers.begin() + static_cast<std::ptrdiff_t>(count), numbers.end());
     EXPECT_EQ(numbers, (std::vector<int>{0, 1, 2, 3, 4, 5})) << count;
