@@ -11,6 +11,8 @@ option(BUILD_SHARED_LIBS "Make shared libraries" OFF)
 # For who works on the sources: another compiler than ours warns of more, which must not keep anyone
 # from a build.
 option(STRAKE_WARNINGS "Warnings, as errors" OFF)
+# Shows who looks at an order that standard libraries leave open (decision 0123).
+option(STRAKE_OTHER_ORDER "Leave another order where no result may depend on it, so that tests fail where one does" OFF)
 set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -42,6 +44,9 @@ if(STRAKE_WARNINGS)
     $<$<NOT:$<AND:$<BOOL:${STRAKE_UNITY}>,$<CXX_COMPILER_ID:Clang>>>:-Wshadow>
     # GCC 12 sees an overlap in "text" + std::string that cannot happen (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+endif()
+if(STRAKE_OTHER_ORDER)
+  target_compile_definitions(strake_flags INTERFACE STRAKE_OTHER_ORDER)
 endif()
 if(STRAKE_SANITIZE)
   target_compile_options(strake_flags INTERFACE

@@ -38,4 +38,12 @@ rm -rf "$folder/clean"
 python3 -m venv "$folder/clean"
 "$folder/clean/bin/pip" install -q --disable-pip-version-check "$folder"/dist/strake-*.whl pytest trimesh pandas pyarrow distributed
 "$folder/clean/bin/python" -m pytest -q python/tests "$@"
+program=$folder/clean/bin/strake
+if [ -x build/release/bin/strake ]; then
+  say "wheel: its program against the one of build/release, byte by byte"
+  python3 scripts/same_bytes.py build/release/bin/strake "$program" || {
+    echo "wheel: they differ; if build/release is of other sources, ./run build" >&2
+    exit 1
+  }
+fi
 say "wheel: built $(ls "$folder"/dist/strake-*.whl)"

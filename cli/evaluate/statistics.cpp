@@ -7,15 +7,18 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+
+#include "core/parting.hpp"
 
 namespace strake::cli {
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+  const std::size_t half = values.size() / 2;
+  const double middle = nth_value(std::span(values), half);
+  if (values.size() % 2 == 1) return middle;
+  return (middle + *std::ranges::max_element(std::span(values).first(half))) / 2;
 }
 
 const ContenderRecord* find_contender(const StageRecord& stage, const std::string& name,

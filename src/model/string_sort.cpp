@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/parting.hpp"
 #include "strake/parallel/find.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/pieces.hpp"
@@ -79,8 +81,8 @@ std::size_t shared_depth(const Texts& texts, const TextRange& range,
 std::optional<TextRange> split_equal(const Texts& texts, const TextRange& range, bool& distinct) {
   const std::span<std::uint32_t> order = texts.places(range);
   const auto size = [&](std::uint32_t i) { return texts.all[i].size(); };
-  const auto longer = std::partition(order.begin(), order.end(),
-                                     [&](std::uint32_t i) { return size(i) <= range.depth; });
+  const std::size_t ended = part_by(order, [&](std::uint32_t i) { return size(i) <= range.depth; });
+  const auto longer = order.begin() + static_cast<std::ptrdiff_t>(ended);
   std::sort(order.begin(), longer, [&](std::uint32_t a, std::uint32_t b) {
     return size(a) != size(b) ? size(a) < size(b) : a < b;
   });

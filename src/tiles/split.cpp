@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
+
+#include "core/parting.hpp"
 
 namespace strake::tiles {
 namespace {
@@ -75,9 +78,7 @@ class Cutter {
     const std::size_t step = whole.objects.size() / kSamples + 1;
     for (std::size_t i = 0; i < whole.objects.size(); i += step)
       middles.push_back(middle(extents_[whole.objects[i]].box, axis));
-    const auto half = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
-    std::nth_element(middles.begin(), half, middles.end());
-    const std::int64_t at = *half;
+    const std::int64_t at = nth_value(std::span(middles), middles.size() / 2);
     if (at <= whole.cell.lo[axis] || at >= whole.cell.hi[axis]) return std::nullopt;
     std::pair<CutCell, CutCell> halves{{whole.cell, {}, 0}, {whole.cell, {}, 0}};
     halves.first.cell.hi[axis] = halves.second.cell.lo[axis] = at;

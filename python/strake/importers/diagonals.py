@@ -20,8 +20,8 @@ Corners = NDArray[np.float64]
 _ROUNDED_MM = 4 / 4096
 # A round flips all pairs of triangles that have none in common. Where that comes to no end, and in faces of more triangles, the
 # kernel's stay.
-_MOST_ROUNDS = 200
-_MOST_TRIANGLES = 5000
+_MAX_ROUNDS = 200
+_MAX_TRIANGLES = 5000
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,10 @@ def settled(vertices: Corners, triangles: NDArray[np.uint32]) -> NDArray[np.uint
         return triangles
     face = _joined(pairs, len(triangles))
     size = np.bincount(face, minlength=len(face))[face]
-    rows = np.flatnonzero((size > 1) & (size <= _MOST_TRIANGLES))
+    rows = np.flatnonzero((size > 1) & (size <= _MAX_TRIANGLES))
     work, face = triangles[rows].astype(np.int64), face[rows]
     pending = np.arange(len(rows))
-    for _ in range(_MOST_ROUNDS):
+    for _ in range(_MAX_ROUNDS):
         some = work[pending]
         wrong, _ = _judged(vertices, _flat_pairs(vertices, some, face[pending]))
         if not len(wrong.first):

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "core/number.hpp"
+#include "core/parting.hpp"
 #include "drawing/layout/expected_extent.hpp"
 
 namespace strake::drawing {
@@ -34,9 +36,7 @@ double gap_between(const PlaneBox& a, const PlaneBox& b) {
 }
 
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return nth_value(std::span(values), values.size() / 2);
 }
 
 /// The boxes that are not empty, those first that may be far, in the order of far_boxes().

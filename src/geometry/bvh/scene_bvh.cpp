@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parting.hpp"
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -138,9 +139,7 @@ std::optional<Split> best_split(std::span<const Ref> refs) {
 std::size_t divide(std::span<Ref> refs) {
   const auto split = best_split(refs);
   if (!split) return refs.size() / 2;  // all centres equal: any halves do
-  const auto middle =
-      std::partition(refs.begin(), refs.end(), [&](const Ref& r) { return split->left(r); });
-  const auto size = static_cast<std::size_t>(middle - refs.begin());
+  const std::size_t size = part_by(refs, [&](const Ref& r) { return split->left(r); });
   return size == 0 || size == refs.size() ? refs.size() / 2 : size;
 }
 

@@ -32,12 +32,14 @@ struct BuildRange {
 /// Builds a binary tree of boxes over items by splitting ranges of them in two, down to leaves.
 ///
 /// Node has a box, `first` and `count`: in an inner node count is 0 and first is its left child
-/// (right = left + 1), in a leaf they are its items. `cut(range, box)` puts the items of a range in
-/// order and returns where it was split; it is called for disjoint ranges at once.
-template <class Node, class Cut>
+/// (right = left + 1), in a leaf they are its items. `cut(range, box)` parts the items of a range
+/// and returns where it was split; what it leaves open is the order within the halves, so that
+/// `settle(range)` puts those of a leaf in one. Both are called for disjoint ranges at once.
+template <class Node, class Cut, class Settle>
 class TopDownBuilder {
  public:
-  TopDownBuilder(std::uint32_t leaf_size, const Cut& cut) : leaf_size_(leaf_size), cut_(cut) {}
+  TopDownBuilder(std::uint32_t leaf_size, const Cut& cut, const Settle& settle)
+      : leaf_size_(leaf_size), cut_(cut), settle_(settle) {}
 
   /// Returns the nodes over items [0, n), root first: the same for any team. A team splits many
   /// items level by level, then each worker builds whole subtrees. None where it was cancelled.
@@ -61,6 +63,7 @@ class TopDownBuilder {
 
   bool ends_at(std::vector<Node>& nodes, const BuildRange& range) const {
     if (range.size() > leaf_size_) return false;
+    settle_(range);
     nodes[range.node].first = range.first;
     nodes[range.node].count = range.size();
     return true;
@@ -145,6 +148,7 @@ class TopDownBuilder {
 
   std::uint32_t leaf_size_;
   const Cut& cut_;
+  const Settle& settle_;
 };
 
 }  // namespace strake::geometry

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "core/parting.hpp"
 #include "geometry/bvh/parallel_traversal.hpp"
 #include "geometry/bvh/top_down_builder.hpp"
 #include "geometry/numeric/vector_math.hpp"
@@ -117,12 +118,11 @@ RangeSplit cut_at(std::span<const Reference> refs, std::size_t first) {
 
 RangeSplit halve(std::span<Reference> refs, int axis) {
   const std::size_t half = refs.size() / 2;
-  std::nth_element(refs.begin(), refs.begin() + static_cast<std::ptrdiff_t>(half), refs.end(),
-                   [axis](const Reference& x, const Reference& y) {
-                     const std::int64_t cx = twice_centre(x.box, axis);
-                     const std::int64_t cy = twice_centre(y.box, axis);
-                     return cx != cy ? cx < cy : x.triangle < y.triangle;
-                   });
+  part_at(refs, half, [axis](const Reference& x, const Reference& y) {
+    const std::int64_t cx = twice_centre(x.box, axis);
+    const std::int64_t cy = twice_centre(y.box, axis);
+    return cx != cy ? cx < cy : x.triangle < y.triangle;
+  });
   return cut_at(refs, half);
 }
 
@@ -158,10 +158,9 @@ RangeSplit split(std::span<Reference> refs, const Box3i& box, std::uint32_t dept
     boundary = best_boundary(bins);
   }
   if (boundary == 0) return halve(refs, binning.axis);
-  const auto middle = std::partition(refs.begin(), refs.end(), [&](const Reference& ref) {
-    return binning.bin(ref.box) < boundary;
-  });
-  RangeSplit r{static_cast<std::uint32_t>(middle - refs.begin()), empty_box<std::int32_t>(),
+  const std::size_t first =
+      part_by(refs, [&](const Reference& ref) { return binning.bin(ref.box) < boundary; });
+  RangeSplit r{static_cast<std::uint32_t>(first), empty_box<std::int32_t>(),
                empty_box<std::int32_t>()};
   for (std::size_t i = 0; i < kTriangleBins; ++i)
     grow(i < boundary ? r.left : r.right, bins[i].box);
@@ -196,11 +195,17 @@ void TriangleBvh::build(const Part& part, std::uint32_t n, const Pick& pick,
       parallel::for_each(context, over_part("tree items", n),
                          [&](std::size_t i) { refs[i] = reference(part, pick(i)); });
   if (!gathered) return;
-  const auto cut = [&](const BuildRange& range, const Box3i& box) {
-    const std::span<Reference> mine = std::span(refs).subspan(range.first, range.size());
-    return n <= kSmallPart ? halve_in_order(mine) : split(mine, box, range.depth);
+  const auto of = [&](const BuildRange& range) {
+    return std::span(refs).subspan(range.first, range.size());
   };
-  nodes_ = TopDownBuilder<Node, decltype(cut)>(kLeafSize, cut).run(box_round(refs), n, context);
+  const auto cut = [&](const BuildRange& range, const Box3i& box) {
+    return n <= kSmallPart ? halve_in_order(of(range)) : split(of(range), box, range.depth);
+  };
+  const auto settle = [&](const BuildRange& range) {
+    if (n > kSmallPart) std::ranges::sort(of(range), {}, &Reference::triangle);
+  };
+  nodes_ = TopDownBuilder<Node, decltype(cut), decltype(settle)>(kLeafSize, cut, settle)
+               .run(box_round(refs), n, context);
   order_.resize(n);
   const Status ordered = parallel::for_each(context, over_part("tree order", n),
                                             [&](std::size_t i) { order_[i] = refs[i].triangle; });

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/contact_regions/slab_candidates.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/distance/hull_distance.hpp"
 #include "geometry/distance/slab_proximity.hpp"
@@ -116,7 +118,8 @@ IntervalSortedBoxes::IntervalSortedBoxes(const std::vector<Box3d>& boxes,
   }
   for (int axis = 0; axis < 3; ++axis) {
     Sorted& sorted = by_axis_[static_cast<std::size_t>(axis)];
-    std::ranges::sort(sorted.all, {}, [axis](const Numbered& n) { return n.box.lo[axis]; });
+    std::ranges::sort(sorted.all, {},
+                      [axis](const Numbered& n) { return std::pair(n.box.lo[axis], n.id); });
     sorted.reached.reserve(sorted.all.size());
     double farthest = -std::numeric_limits<double>::infinity();
     for (const Numbered& n : sorted.all) {

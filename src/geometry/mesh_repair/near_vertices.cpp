@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "core/parting.hpp"
 #include "core/union_find.hpp"
 #include "geometry/numeric/vector_math.hpp"
 
@@ -83,16 +85,18 @@ void NearPoints::split(std::size_t node) {
   Box3i box = empty_box<std::int32_t>();
   for (const std::uint32_t p : points) box.include(vertices_[p]);
   nodes_[node].box = box;
-  if (points.size() <= kLeaf) return;
+  if (points.size() <= kLeaf) {
+    std::ranges::sort(points);
+    return;
+  }
   const auto side = [&](int k) { return std::int64_t{box.hi[k]} - box.lo[k]; };
   int axis = side(1) > side(0) ? 1 : 0;
   if (side(2) > side(axis)) axis = 2;
   const std::uint32_t first = nodes_[node].first, count = nodes_[node].count, half = count / 2;
-  std::nth_element(points.begin(), points.begin() + half, points.end(),
-                   [&](std::uint32_t p, std::uint32_t q) {
-                     const std::int32_t x = vertices_[p][axis], y = vertices_[q][axis];
-                     return x != y ? x < y : p < q;
-                   });
+  part_at(points, half, [&](std::uint32_t p, std::uint32_t q) {
+    const std::int32_t x = vertices_[p][axis], y = vertices_[q][axis];
+    return x != y ? x < y : p < q;
+  });
   nodes_[node].left = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({{}, first, half, 0});
   nodes_.push_back({{}, first + half, count - half, 0});

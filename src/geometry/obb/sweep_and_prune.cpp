@@ -56,7 +56,7 @@ SweepAndPrune::SweepAndPrune(const PairLocalPart& a, const PairLocalPart& b, con
       std::swap(s.lo[0], s.lo[first]);
       std::swap(s.hi[0], s.hi[first]);
     }
-    std::ranges::sort(*swept, {}, [](const Swept& s) { return s.lo[0]; });
+    std::ranges::sort(*swept, {}, [](const Swept& s) { return std::pair(s.lo[0], s.id); });
   }
 }
 

@@ -199,7 +199,7 @@ class CapTriangulator {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const std::array<CapPoint, 2> line = ends(lines_[i]);
       std::ranges::sort(at[i], {}, [&](const CapPoint& c) {
-        return std::abs(c.x - line[0].x) + std::abs(c.y - line[0].y);
+        return std::pair(std::abs(c.x - line[0].x) + std::abs(c.y - line[0].y), c);
       });
       std::uint32_t from = lines_[i][0];
       for (const CapPoint& c : at[i]) {

@@ -191,7 +191,7 @@ void add_chains(std::vector<FeatureEdge>& edges, const Part& part, std::uint32_t
 
 void sort_edges(std::vector<FeatureEdge>& edges) {
   const auto before = [](const FeatureEdge& x, const FeatureEdge& y) {
-    return std::tie(x.a, x.b, x.part_edge) < std::tie(y.a, y.b, y.part_edge);
+    return std::tie(x.a, x.b, x.part_edge, x.kind) < std::tie(y.a, y.b, y.part_edge, y.kind);
   };
   // Most are in this order already: vertices and edges of a part are sorted.
   if (!std::ranges::is_sorted(edges, before)) std::ranges::sort(edges, before);

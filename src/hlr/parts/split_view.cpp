@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "core/parting.hpp"
 #include "hlr/incremental/bounds_projection.hpp"
 #include "hlr/incremental/solid_boxes.hpp"
 #include "hlr/view/view_bvh.hpp"
@@ -185,11 +187,11 @@ class ViewSplitter {
       return of_x != of_y ? of_x < of_y : x < y;
     };
     std::vector<std::uint32_t> by_place = to_solve;
-    const auto middle = by_place.begin() + static_cast<std::ptrdiff_t>(by_place.size() / 2);
-    std::nth_element(by_place.begin(), middle, by_place.end(), before);
+    const std::size_t half = by_place.size() / 2;
+    part_at(std::span(by_place), half, before);
     std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> parted;
     for (const std::uint32_t o : to_solve)
-      (before(o, *middle) ? parted.first : parted.second).push_back(o);
+      (before(o, by_place[half]) ? parted.first : parted.second).push_back(o);
     return parted;
   }
 

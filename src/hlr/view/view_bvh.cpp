@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include "core/parting.hpp"
 #include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -114,6 +116,7 @@ class ViewBvh::Builder {
     if (subtree.size() <= kLeafSize) {
       node.first = subtree.first;
       node.count = subtree.size();
+      std::sort(order.begin() + subtree.first, order.begin() + subtree.last);
       return {};
     }
     const std::uint32_t middle = subtree.first + subtree.size() / 2;
@@ -121,10 +124,10 @@ class ViewBvh::Builder {
     const auto key = [&](std::uint32_t i) {
       return by_u ? loose_[i].u0 + loose_[i].u1 : loose_[i].v0 + loose_[i].v1;
     };
-    std::nth_element(order.begin() + subtree.first, order.begin() + middle,
-                     order.begin() + subtree.last, [&](std::uint32_t x, std::uint32_t y) {
-                       return key(x) < key(y) || (key(x) == key(y) && x < y);
-                     });
+    part_at(std::span(order).subspan(subtree.first, subtree.size()), middle - subtree.first,
+            [&](std::uint32_t x, std::uint32_t y) {
+              return key(x) < key(y) || (key(x) == key(y) && x < y);
+            });
     node.first = subtree.below;
     const std::uint32_t below_left = subtree.below + 2;
     return {Subtree{subtree.below, subtree.first, middle, below_left},

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "core/number.hpp"
+#include "core/parting.hpp"
 #include "page/blocks/columns.hpp"
 #include "page/geometry/shape_book.hpp"
 #include "report/text/formatting.hpp"
@@ -62,9 +64,8 @@ Vec3d origin_of(SceneBoxes& boxes) {
   for (int k = 0; k < 3; ++k) {
     std::vector<std::int64_t>& sums = boxes.corner_sums[static_cast<std::size_t>(k)];
     if (sums.empty()) return {};
-    const auto middle = sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 2);
-    std::ranges::nth_element(sums, middle);
-    origin[k] = std::round(static_cast<double>(*middle) * geometry::kMmPerGrid / 2);
+    const std::int64_t middle = nth_value(std::span(sums), sums.size() / 2);
+    origin[k] = std::round(static_cast<double>(middle) * geometry::kMmPerGrid / 2);
   }
   return origin;
 }

@@ -74,7 +74,7 @@ std::vector<StraightRun> joined(const std::vector<StraightRun>& runs) {
   }
   std::ranges::sort(found, {}, [](const StraightRun& run) {
     const auto& [a, b] = run.line;
-    return std::tuple(-length_of(run.line), a.x, a.y, b.x, b.y);
+    return std::tuple(-length_of(run.line), a.x, a.y, b.x, b.y, run.half_mm);
   });
   return found;
 }

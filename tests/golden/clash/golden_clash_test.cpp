@@ -92,10 +92,10 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "3817ebeef71b1568e610f8ad39c5e9d9",
-                                                "fd3d191d0d170cca524ed4cc7e8b1ce8"},
-                                         Golden{true, "93a04ffef828efba0a52c427ae44d748",
-                                                "3fa8bd9e3b804297f1a612e9fd47532f"}),
+                         testing::Values(Golden{false, "79aeb0066faf07c4651a51e6c0591115",
+                                                "87a7a703bd59363ac910d3801d075dcf"},
+                                         Golden{true, "43135fc4b6028273a2d89c435026b6cf",
+                                                "85863805290c0c6ac2b5a4da4890b4ee"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <random>
 #include <stop_token>
 #include <vector>
 
@@ -82,6 +84,18 @@ TEST(TriangleBvh, IsSoundAndTheSameForAnyTeam) {
   }
 }
 
+TEST(TriangleBvh, DoesNotDependOnTheOrderInWhichTrianglesAreListed) {
+  const Part part = part_of(test::bumpy_mesh(1000, 60, 12, 40));
+  std::vector<std::uint32_t> listed(part.triangles.size());
+  std::iota(listed.begin(), listed.end(), 0U);
+  const TriangleBvh tree(part, listed);
+  std::mt19937 random(7);
+  for (int round = 0; round < 3; ++round) {
+    std::ranges::shuffle(listed, random);
+    EXPECT_TRUE(same(TriangleBvh(part, listed), tree));
+  }
+}
+
 TEST(TriangleBvh, IsEmptyWhenItWasStopped) {
   const Part part = part_of(test::sphere_mesh(1000, 150));
   const std::stop_source stop;
@@ -119,6 +133,24 @@ TEST(SupportTree, FindsThePointsInABox) {
     std::ranges::sort(found, less);
     EXPECT_EQ(found, expected);
     EXPECT_EQ(tree.points_within(box, 5).size(), std::min<std::size_t>(5, expected.size()));
+  }
+}
+
+TEST(SupportTree, DoesNotDependOnTheOrderOfThePoints) {
+  // Many of them are equally far in these directions, and at equal places along an axis.
+  std::vector<Vec3i> points;
+  for (std::int32_t x = 0; x < 9; ++x)
+    for (std::int32_t y = 0; y < 9; ++y)
+      for (std::int32_t z = 0; z < 9; ++z) points.push_back({x, y, z});
+  const SupportTree tree(points);
+  std::mt19937 random(7);
+  for (int round = 0; round < 3; ++round) {
+    std::ranges::shuffle(points, random);
+    const SupportTree other(points);
+    for (const Vec3d& n : {Vec3d{1, 0, 0}, Vec3d{0, -1, 1}, Vec3d{0, 0, -1}, Vec3d{}})
+      EXPECT_EQ(other.support_along(n).vertex, tree.support_along(n).vertex);
+    const Box3d box{{2, 2, 2}, {7, 7, 7}};
+    EXPECT_EQ(other.points_within(box, 40), tree.points_within(box, 40));
   }
 }
 

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <variant>
 #include <vector>
 
+#include "core/parting.hpp"
 #include "geometry/bvh/parallel_traversal.hpp"
 #include "geometry/interior_depth/bounds/convexity.hpp"
 #include "geometry/numeric/triangle_math.hpp"
@@ -98,7 +100,7 @@ void merge_by_hash(std::vector<DistinctFace>& faces) {
 
 void merge_by_sorting(std::vector<DistinctFace>& faces) {
   std::sort(faces.begin(), faces.end(), [](const DistinctFace& a, const DistinctFace& b) {
-    return a.key != b.key ? a.key < b.key : a.area > b.area;
+    return std::tie(a.key, b.area, a.normal, a.tilt) < std::tie(b.key, a.area, b.normal, b.tilt);
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -134,10 +136,9 @@ bool merge_needles_of_largest(std::vector<DistinctFace>& faces) {
 
 void keep_largest(std::vector<DistinctFace>& faces, std::size_t limit) {
   if (faces.size() <= limit) return;
-  std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(limit), faces.end(),
-                   [](const DistinctFace& a, const DistinctFace& b) {
-                     return a.area != b.area ? a.area > b.area : a.key < b.key;
-                   });
+  part_at(std::span(faces), limit, [](const DistinctFace& a, const DistinctFace& b) {
+    return a.area != b.area ? a.area > b.area : a.key < b.key;
+  });
   faces.resize(limit);
 }
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include "core/parting.hpp"
 #include "geometry/bvh/top_down_builder.hpp"
 #include "geometry/numeric/vector_math.hpp"
 
@@ -42,16 +44,20 @@ int longest_axis(const Box3i& box) {
 SupportTree::SupportTree(std::span<const Vec3i> points, const parallel::Context& context)
     : points_(points.begin(), points.end()) {
   if (points_.size() <= kFewVertices) return;
+  const auto of = [&](const BuildRange& range) {
+    return std::span(points_).subspan(range.first, range.size());
+  };
   const auto cut = [&](const BuildRange& range, const Box3i& box) {
-    const auto mine = std::span(points_).subspan(range.first, range.size());
+    const auto mine = of(range);
     const std::size_t half = mine.size() / 2;
-    const int axis = longest_axis(box);
-    std::nth_element(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(half), mine.end(),
-                     [axis](const Vec3i& a, const Vec3i& b) { return a[axis] < b[axis]; });
+    part_at(mine, half, [axis = longest_axis(box)](const Vec3i& a, const Vec3i& b) {
+      return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+    });
     return RangeSplit{static_cast<std::uint32_t>(half), box_of(mine.first(half)),
                       box_of(mine.subspan(half))};
   };
-  nodes_ = TopDownBuilder<Node, decltype(cut)>(kVerticesPerLeaf, cut)
+  const auto settle = [&](const BuildRange& range) { std::ranges::sort(of(range)); };
+  nodes_ = TopDownBuilder<Node, decltype(cut), decltype(settle)>(kVerticesPerLeaf, cut, settle)
                .run(box_of(points_), static_cast<std::uint32_t>(points_.size()), context);
 }
 

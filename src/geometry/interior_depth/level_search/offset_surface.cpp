@@ -204,7 +204,7 @@ class OffsetSurfaceBuilder {
       both.push_back({w, v});
     }
     std::ranges::sort(both);
-    std::ranges::sort(bends_, {}, &Bend::corner);
+    std::ranges::sort(bends_, {}, [](const Bend& b) { return std::pair(b.corner, b.angle); });
     for (std::size_t i = 0; i < bends_.size();) {
       const std::uint32_t v = bends_[i].corner;
       double sum = 0;
@@ -257,8 +257,9 @@ class OffsetSurfaceBuilder {
     Vec3d sum;
     for (const Vec3d& r : rays) sum = sum + r;
     const Vec3d middle = unit(sum), across = perpendicular_to(middle), up = cross(middle, across);
-    std::ranges::sort(rays, {},
-                      [&](const Vec3d& r) { return arc_tan2(dot(r, up), dot(r, across)); });
+    std::ranges::sort(rays, {}, [&](const Vec3d& r) {
+      return std::pair(arc_tan2(dot(r, up), dot(r, across)), r);
+    });
     for (std::size_t i = 0; i < rays.size(); ++i)
       cells_.push_back(
           round_corner(corner, {middle, rays[i], rays[(i + 1) % rays.size()]}, distance_));

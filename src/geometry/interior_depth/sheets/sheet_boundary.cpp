@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/parting.hpp"
 #include "geometry/interior_depth/surface_distance/nearest_triangle.hpp"
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/geometry/part.hpp"
@@ -92,7 +93,7 @@ std::vector<SegmentBvh::SegmentPiece> SegmentBvh::cut() const {
       Box3d box = empty_box<double>();
       box.include(from + (to - from) * (k / parts));
       box.include(from + (to - from) * ((k + 1) / parts));
-      pieces.push_back({box.inflated(kMargin), i});
+      pieces.push_back({box.inflated(kMargin), i, static_cast<std::uint32_t>(pieces.size())});
     }
   }
   return pieces;
@@ -105,16 +106,16 @@ void SegmentBvh::build(std::uint32_t node, std::span<SegmentPiece> pieces) {
   if (pieces.size() <= kLeaf) {
     nodes_[node].first = static_cast<std::uint32_t>(order_.size());
     nodes_[node].count = static_cast<std::uint32_t>(pieces.size());
+    std::ranges::sort(pieces, {}, &SegmentPiece::number);
     for (const SegmentPiece& piece : pieces) order_.push_back(piece.segment);
     return;
   }
   const Vec3d size = box.hi - box.lo;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto middle = static_cast<std::ptrdiff_t>(pieces.size() / 2);
-  std::nth_element(pieces.begin(), pieces.begin() + middle, pieces.end(),
-                   [axis](const SegmentPiece& x, const SegmentPiece& y) {
-                     return x.box.lo[axis] + x.box.hi[axis] < y.box.lo[axis] + y.box.hi[axis];
-                   });
+  part_at(pieces, pieces.size() / 2, [axis](const SegmentPiece& x, const SegmentPiece& y) {
+    const double of_x = x.box.lo[axis] + x.box.hi[axis], of_y = y.box.lo[axis] + y.box.hi[axis];
+    return of_x != of_y ? of_x < of_y : x.number < y.number;
+  });
   const auto left = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].first = left;
   nodes_.resize(nodes_.size() + 2);

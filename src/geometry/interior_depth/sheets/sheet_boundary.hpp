@@ -49,6 +49,7 @@ class SegmentBvh {
   struct SegmentPiece {
     Box3d box;
     std::uint32_t segment = 0;
+    std::uint32_t number = 0;  ///< among all pieces
   };
 
   [[nodiscard]] std::vector<SegmentPiece> cut() const;
