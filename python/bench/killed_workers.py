@@ -93,7 +93,9 @@ def main() -> None:
             run(scheduler=client, folder=work, memory=given.memory, threads=1).save(result, threads=1)
             lived = client.run(spent)
         killed = len(list(work.glob("*.killed")))
-        print_cost(f"{what}: cut, join, write", spent()[0] - before, spent()[1], f"{time.perf_counter() - wall:.0f} s wall, {killed} killed")
+        print_cost(
+            f"{what}: cut, join, write", spent()[0] - before, spent()[1], f"{time.perf_counter() - wall:.0f} s wall, {killed} killed"
+        )
         for number, (cpu, peak) in enumerate(lived.values(), 1):
             print_cost(f"{what}: worker {number}", cpu, peak)
         if killed != 2:
