@@ -59,15 +59,22 @@ std::vector<Case> cases_of(const model::Scene& scene) {
   const geometry::Vec3l toward{size.x / 1024, -size.x / 1024, size.x / 2048};
   hlr::View perspective{.direction = toward};
   perspective.perspective = {.eye = target + toward * 700, .target = target};
+  const hlr::Options all;
   hlr::Options visible_only;
-  visible_only.hidden = false;
-  return {{"plan", {.direction = {0, 0, 1}}, {}},
-          {"plan, what is seen", {.direction = {0, 0, 1}}, visible_only},
-          {"deck, what is seen", {.direction = {0, 0, 1}, .limits = deck}, visible_only},
-          {"front", {.direction = {0, -1, 0}}, {}},
-          {"isometric", {.direction = {1, -1, 1}}, {}},
-          {"isometric, what is seen", {.direction = {1, -1, 1}}, visible_only},
-          {"perspective, what is seen", perspective, visible_only}};
+  visible_only.hidden = visible_only.clipped = false;
+  // One by one: of a list of them GCC 12 warns that some may be destroyed before they are made.
+  std::vector<Case> cases;
+  const auto add = [&](const char* name, const hlr::View& view, const hlr::Options& options) {
+    cases.push_back({name, view, options});
+  };
+  add("plan", {.direction = {0, 0, 1}}, all);
+  add("plan, what is seen", {.direction = {0, 0, 1}}, visible_only);
+  add("deck, what is seen", {.direction = {0, 0, 1}, .limits = deck}, visible_only);
+  add("front", {.direction = {0, -1, 0}}, all);
+  add("isometric", {.direction = {1, -1, 1}}, all);
+  add("isometric, what is seen", {.direction = {1, -1, 1}}, visible_only);
+  add("perspective, what is seen", perspective, visible_only);
+  return cases;
 }
 
 void move(model::Scene& scene, std::uint32_t object, std::int64_t by) {
