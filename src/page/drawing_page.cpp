@@ -11,11 +11,13 @@
 namespace strake::page {
 namespace {
 
-/// Returns which objects have a line in a drawing.
+/// Returns which objects have a line in a drawing that is not clipped.
 std::vector<bool> drawn_objects(const drawing::NeutralDrawing& drawing, const model::Model& model) {
   std::vector<bool> drawn(model.objects.size(), false);
-  for (const drawing::Line& line : drawing.lines)
+  for (const drawing::Line& line : drawing.lines) {
+    if (line.state == drawing::LineState::clipped) continue;
     drawn[model::index(line.object)] = drawn[model::index(line.other)] = true;
+  }
   return drawn;
 }
 

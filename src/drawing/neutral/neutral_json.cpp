@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -100,6 +103,11 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
 }
 
 void write_counts(BufferedWriter& out, const NeutralDrawing& drawing) {
+  // Lines are counted that are listed; clipped ones that are not stand apart.
+  std::array<std::uint64_t, kLineStates> count = drawing.count;
+  const std::uint64_t all = std::accumulate(count.begin(), count.end(), std::uint64_t{0});
+  const std::uint64_t clipped_left_out = all - std::min<std::uint64_t>(all, drawing.lines.size());
+  count.at(static_cast<std::size_t>(LineState::clipped)) -= clipped_left_out;
   out << fmt::format("\"counts\":{{\"objects\":{}", drawing.account.objects());
   for (std::size_t f = 1; f < hlr::kFates; ++f) {
     const auto fate = static_cast<hlr::Fate>(f);
@@ -113,7 +121,8 @@ void write_counts(BufferedWriter& out, const NeutralDrawing& drawing) {
   if (drawing.uncut) out << fmt::format(",\"objects_uncut\":{}", drawing.counters.uncut_objects);
   if (!drawing.flush_seams) out << fmt::format(",\"edges_with_seams\":{}", drawing.counters.seams);
   for (std::size_t s = 0; s < kLineStates; ++s)
-    out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
+    out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), count.at(s));
+  if (clipped_left_out > 0) out << fmt::format(",\"clipped_left_out\":{}", clipped_left_out);
   out << "},\n";
 }
 

@@ -100,6 +100,7 @@ void read_counts(const ViewRest& rest, drawing::NeutralDrawing& drawing) {
   drawing.counters.seams = of("edges_with_seams");
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     drawing.count.at(s) = of(std::string(drawing::state_name(static_cast<drawing::LineState>(s))));
+  drawing.count.at(static_cast<std::size_t>(drawing::LineState::clipped)) += of("clipped_left_out");
 }
 
 /// Writers spend work and memory by the size of the sheet and of what lies on it: no run wrote a

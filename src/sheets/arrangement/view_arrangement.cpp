@@ -389,7 +389,9 @@ class Placer {
     // One anchor for all views that have none, so that they are aligned.
     Vec3l common;
     const auto some = std::find_if(drawings.begin(), drawings.end(), [](const hlr::Drawing& d) {
-      return !d.pieces.empty() && !d.view.perspective;
+      const bool has_lines =
+          !d.pieces.empty() || std::ranges::any_of(d.clipped_left_out, std::identity());
+      return has_lines && !d.view.perspective;
     });
     if (some != drawings.end()) common = some->origin;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {

@@ -93,6 +93,27 @@ class Draw(Scenario):
         done = self.run_strake('draw', 'pipe.obj', '--own-polylines', 'seen', '-o', 'x.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
 
+    def test_clipped_edges_that_are_not_listed_are_counted(self):
+        self.write('m.obj', cube('in', 0, (0, 0, 0), 100) + cube('out', 1, (900, 0, 0), 100) + cube('half', 2, (200, 0, 0), 100))
+        view = ('m.obj', '--view', 'iso', '--limits', '-50,-50,-50,250,150,150')
+        self.text('draw', *view, '-o', 'all.json', '-o', 'all.svg')
+        all_lines = json.loads((self.folder / 'all.json').read_text())
+        self.assertNotIn('clipped_left_out', all_lines['counts'])
+        for name in ('v.json', 'v.view'):
+            self.text('draw', *view, '--visible-only', '-o', name, '-o', 'v.svg')
+            # A document that lists fewer lines is read again, drawn to the same bytes, and equals the one with all of them.
+            self.text('draw', name, '-o', 'again.svg')
+            self.assertEqual((self.folder / 'again.svg').read_bytes(), (self.folder / 'v.svg').read_bytes())
+            self.assertEqual(self.run_strake('draw', 'diff', 'all.json', name).returncode, 0)
+            self.text('draw', name, '-o', 'again.json')
+            counts = json.loads((self.folder / 'again.json').read_text())['counts']
+            self.assertGreaterEqual(counts['clipped_left_out'], 12)
+            self.assertEqual(counts['clipped'] + counts['clipped_left_out'], all_lines['counts']['clipped'])
+            self.assertEqual(counts['visible'], all_lines['counts']['visible'])
+            self.assertEqual(counts['objects_clipped'], 1)
+        # Edges that are clipped in part are listed.
+        self.assertGreater(counts['clipped'], 0)
+
     def test_visible_only_leaves_out_the_rest_and_nothing_else(self):
         self.two_files()
         found = []
