@@ -48,9 +48,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.diagnostics = job->diagnostics;
   drawing.origin = view.perspective ? view.perspective->target : job->origin;
   drawing.hatches = job->hatches;
-  drawing.counted.resize(scene.model->objects.size());
-  if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
-  if (!options.clipped) drawing.clipped_left_out.resize(scene.model->objects.size());
+  make_room_for_counts(options, scene.model->objects.size(), drawing);
   const Result<SpeckedObjects> specked = solve(*job, context, drawing);
   if (!specked) return specked.error();
   if (const Status status = leave_out_hidden_objects(context, drawing); !status)

@@ -23,9 +23,7 @@ Result<Drawing> solve_part(const ViewInput& input, const parallel::Context& cont
   drawing.counters = job->counters;
   drawing.diagnostics = job->diagnostics;
   drawing.origin = input.view.perspective ? input.view.perspective->target : job->origin;
-  drawing.counted.resize(objects);
-  if (!input.options.hidden) drawing.left_out.resize(objects);
-  if (!input.options.clipped) drawing.clipped_left_out.resize(objects);
+  make_room_for_counts(input.options, objects, drawing);
   const Result<SpeckedObjects> specked = solve_gather(*job, context, drawing);
   if (!specked) return specked.error();
   if (const Status status = leave_out_hidden_objects(context, drawing); !status)

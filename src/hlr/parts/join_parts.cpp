@@ -52,10 +52,8 @@ Status PartJoin::make_room(const Options& options, const parallel::Context& cont
   drawing_.pieces = std::move(*pieces);
   drawing_.curves.edges.resize(sum.edge);
   drawing_.curves.all.resize(sum.curve);
-  drawing_.counted.resize(first_.size());
   drawing_.account.fates.resize(first_.size());
-  if (!options.hidden) drawing_.left_out.resize(first_.size());
-  if (!options.clipped) drawing_.clipped_left_out.resize(first_.size());
+  make_room_for_counts(options, first_.size(), drawing_);
   return {};
 }
 

@@ -105,6 +105,12 @@ void list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, 
 
 }  // namespace
 
+void make_room_for_counts(const Options& options, std::size_t objects, Drawing& drawing) {
+  drawing.counted.resize(objects);
+  if (!options.hidden) drawing.left_out.resize(objects);
+  if (!options.clipped) drawing.clipped_left_out.resize(objects);
+}
+
 Status leave_out_hidden_objects(const parallel::Context& context, Drawing& drawing) {
   const std::span<const EdgePiece> pieces = drawing.pieces;
   const std::span<const std::uint32_t> left_out = drawing.left_out;

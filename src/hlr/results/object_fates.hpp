@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "strake/parallel/context.hpp"
 
 namespace strake::hlr {
+
+/// Makes room for what the solvers count by object, as the options have it.
+void make_room_for_counts(const Options& options, std::size_t objects, Drawing& drawing);
 
 /// Removes what is left of an object of which nothing is visible, points on paper and clipped
 /// pieces, where its hidden pieces were left out: they would be most of the drawing of a large
