@@ -38,10 +38,11 @@ function(strake_precompile target group)
   endif()
 endfunction()
 
-# strake_compile_quickly(TARGET): in a release build, for what no loop of which is hot.
+# strake_compile_quickly(TARGET [TEST]): in a release build, for what no loop of which is hot. A TEST is run
+# once: -Og compiles it in four fifths of the time of -O1.
 function(strake_compile_quickly target)
-  # GCC follows values less far at -O1, and suspects some that are set.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
+  # GCC follows values less far below -O2, and suspects some that are set.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<STREQUAL:${ARGN},TEST>,-Og,-O1>>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 

@@ -62,7 +62,7 @@ while read -r file; do
   [ -e "$stamp" ] || todo+=("$file" "$stamp")
 done < <(changed)
 # A change of everything, as a name that all use, is looked at in full by the nightly run.
-most=60
+most=40
 if [ -z "$all" ] && [ $((${#todo[@]} / 2)) -gt $most ]; then
   say "lint: of $((${#todo[@]} / 2)) sources the $most that changed most; lint.sh --all looks at all"
   todo=("${todo[@]:0:$((2 * most))}")

@@ -30,11 +30,11 @@ using geometry::SpherePrimitive;
 using geometry::Vec3d;
 
 constexpr std::uint64_t kTurns = 6;
-constexpr double kTurn = 6.283185307179586;
+constexpr double kFullTurn = 6.283185307179586;
 /// Local z along x.
 const Mat3d kOnItsSide{{Vec3d{0, 0, 1}, Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}}};
 
-struct Body {
+struct PlacedPrimitive {
   Primitive primitive;
   Placement at;
 
@@ -45,13 +45,13 @@ struct Body {
   }
 };
 
-Body placed(const Body& body, const Placement& frame) {
+PlacedPrimitive placed(const PlacedPrimitive& body, const Placement& frame) {
   Placement at = frame * body.at;
   at.translation = to_mm(geometry::snap(at.translation).value());
   return {body.primitive, at};
 }
 
-Pair pair_of(const Body& a, const Body& b, const Options& options = {}) {
+Pair pair_of(const PlacedPrimitive& a, const PlacedPrimitive& b, const Options& options = {}) {
   test::ClashModel m;
   m.object("a").body(a.primitive, a.at);
   m.object("b").body(b.primitive, b.at);
@@ -65,12 +65,12 @@ Relation mirrored(Relation r) {
   return r == Relation::b_in_a ? Relation::a_in_b : r;
 }
 
-void expect_relation(const Body& a, const Body& b, Relation relation, double d_mm,
-                     const std::string& what) {
+void expect_relation(const PlacedPrimitive& a, const PlacedPrimitive& b, Relation relation,
+                     double d_mm, const std::string& what) {
   for (std::uint64_t seed = 1; seed <= kTurns; ++seed) {
     test::PrimitiveDraw draw(seed);
     const Placement frame{seed == 1 ? Mat3d{} : draw.turn(), draw.point(500)};
-    const Body x = placed(a, frame), y = placed(b, frame);
+    const PlacedPrimitive x = placed(a, frame), y = placed(b, frame);
     const Pair p = pair_of(x, y), q = pair_of(y, x);
     SCOPED_TRACE(what + ", turn " + std::to_string(seed));
     EXPECT_EQ(name(p.relation), name(relation));
@@ -82,11 +82,11 @@ void expect_relation(const Body& a, const Body& b, Relation relation, double d_m
 }
 
 TEST(CertifiedRelations, SheetsInSolidsAndThroughThem) {
-  const Body pipe{CylinderPrimitive{50, 100}, {}}, ball{SpherePrimitive{100}, {}};
-  const Body bar{BoxPrimitive{20, 20, 100}, {}}, block{BoxPrimitive{90, 100, 110}, {}};
-  const Body small{BoxPrimitive{20, 20, 0}, {}}, wide{BoxPrimitive{300, 300, 0}, {}};
-  const Body coin{CylinderPrimitive{20, 0}, {}}, disc{CylinderPrimitive{200, 0}, {}};
-  const Body beside{BoxPrimitive{100, 20, 0}, {{}, {50, 0, 0}}};
+  const PlacedPrimitive pipe{CylinderPrimitive{50, 100}, {}}, ball{SpherePrimitive{100}, {}};
+  const PlacedPrimitive bar{BoxPrimitive{20, 20, 100}, {}}, block{BoxPrimitive{90, 100, 110}, {}};
+  const PlacedPrimitive small{BoxPrimitive{20, 20, 0}, {}}, wide{BoxPrimitive{300, 300, 0}, {}};
+  const PlacedPrimitive coin{CylinderPrimitive{20, 0}, {}}, disc{CylinderPrimitive{200, 0}, {}};
+  const PlacedPrimitive beside{BoxPrimitive{100, 20, 0}, {{}, {50, 0, 0}}};
   expect_relation(small, pipe, Relation::a_in_b, -50, "sheet in pipe");
   expect_relation(coin, pipe, Relation::a_in_b, -50, "disc in pipe");
   expect_relation(coin, ball, Relation::a_in_b, -50, "disc in ball");
@@ -101,7 +101,7 @@ TEST(CertifiedRelations, SheetsInSolidsAndThroughThem) {
 }
 
 /// Both witnesses, or the deepest point and the nearest one of the skin that d is measured to.
-void expect_points_on_skins(const Body& a, const Body& b, const Pair& p) {
+void expect_points_on_skins(const PlacedPrimitive& a, const PlacedPrimitive& b, const Pair& p) {
   constexpr double kOff = 0.02;
   if (p.d_mm >= 0) {
     EXPECT_NEAR(a.depth(p.on_a_mm), 0, kOff);
@@ -120,22 +120,24 @@ struct Ring {
 };
 
 TEST(CertifiedRelations, RingsRoundAPipe) {
-  for (const Ring& r : {Ring{RectangularTorusPrimitive{50, 80, 40, kTurn / 2}, 50, "half collar"},
-                        Ring{RectangularTorusPrimitive{50, 80, 40, kTurn}, 50, "collar"},
-                        Ring{RectangularTorusPrimitive{1500, 1600, 100, kTurn}, 1500, "3 m"},
-                        Ring{RectangularTorusPrimitive{10000, 10600, 1000, kTurn}, 10000, "20 m"},
-                        Ring{CircularTorusPrimitive{150, 20, kTurn}, 130, "round"},
-                        Ring{CircularTorusPrimitive{1500, 20, kTurn}, 1480, "round, 3 m"}})
+  for (const Ring& r :
+       {Ring{RectangularTorusPrimitive{50, 80, 40, kFullTurn / 2}, 50, "half collar"},
+        Ring{RectangularTorusPrimitive{50, 80, 40, kFullTurn}, 50, "collar"},
+        Ring{RectangularTorusPrimitive{1500, 1600, 100, kFullTurn}, 1500, "3 m"},
+        Ring{RectangularTorusPrimitive{10000, 10600, 1000, kFullTurn}, 10000, "20 m"},
+        Ring{CircularTorusPrimitive{150, 20, kFullTurn}, 130, "round"},
+        Ring{CircularTorusPrimitive{1500, 20, kFullTurn}, 1480, "round, 3 m"}})
     for (const double press : {0.0, 0.3, 4.0})
       for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         test::PrimitiveDraw draw(seed);
         const Placement frame{seed == 1 ? Mat3d{} : draw.turn(), draw.point(500)};
-        const Body ring = placed({r.primitive, {}}, frame);
-        const Body pipe = placed({CylinderPrimitive{r.hole + press, 4 * r.hole}, {}}, frame);
+        const PlacedPrimitive ring = placed({r.primitive, {}}, frame);
+        const PlacedPrimitive pipe =
+            placed({CylinderPrimitive{r.hole + press, 4 * r.hole}, {}}, frame);
         SCOPED_TRACE(std::string(r.what) + ", press " + std::to_string(press) + ", turn " +
                      std::to_string(seed));
         for (const bool turned : {false, true}) {
-          const Body &a = turned ? pipe : ring, &b = turned ? ring : pipe;
+          const PlacedPrimitive &a = turned ? pipe : ring, &b = turned ? ring : pipe;
           const Pair p = pair_of(a, b);
           EXPECT_LE(p.d_lower_mm, -press + 3e-3);
           EXPECT_GE(p.d_upper_mm, -press - 3e-3);
@@ -149,7 +151,7 @@ TEST(CertifiedRelations, RingsRoundAPipe) {
 }
 
 TEST(CertifiedRelations, ARodAcrossTheHoleOfARingIsNotInTheRing) {
-  const Body ring{CircularTorusPrimitive{500, 50, kTurn}, {}};
+  const PlacedPrimitive ring{CircularTorusPrimitive{500, 50, kFullTurn}, {}};
   expect_relation(ring, {CylinderPrimitive{10, 1000}, {kOnItsSide, {}}}, Relation::interfere, -50,
                   "both ends in the ring");
   expect_relation(ring, {CylinderPrimitive{10, 980}, {kOnItsSide, {15, 0, 0}}}, Relation::interfere,

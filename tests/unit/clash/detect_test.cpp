@@ -368,7 +368,7 @@ TEST(Detect, StopsWhenRequestedTo) {
 }
 
 /// Boxes, turned boxes and primitives on a coarse lattice: touching, crossing, nested, duplicate.
-ClashModel crowd(std::uint64_t seed, int count, const Vec3d& offset = {}) {
+ClashModel turned_crowd(std::uint64_t seed, int count, const Vec3d& offset = {}) {
   std::mt19937_64 random(seed);
   const auto draw = [&](int n) {
     return static_cast<double>(random() % static_cast<std::uint64_t>(n));
@@ -388,7 +388,7 @@ ClashModel crowd(std::uint64_t seed, int count, const Vec3d& offset = {}) {
 }
 
 TEST(Detect, SameBytesForAnyTeamAndEitherBroadPhase) {
-  const ClashModel m = crowd(3, 200);
+  const ClashModel m = turned_crowd(3, 200);
   Options options{.tolerances = {.clearance_mm = 5}};
   const Report base = m.detect(options);
   EXPECT_GT(base.count_hit, 50U);
@@ -404,9 +404,9 @@ TEST(Detect, SameBytesForAnyTeamAndEitherBroadPhase) {
 }
 
 TEST(Detect, OtherObjectsAndTheirOrderDoNotShow) {
-  const Report all = crowd(5, 60).detect();
+  const Report all = turned_crowd(5, 60).detect();
   // Objects in reverse: a and b of each pair change places, and nothing else does.
-  ClashModel m = crowd(5, 60);
+  ClashModel m = turned_crowd(5, 60);
   std::reverse(m.model.objects.begin(), m.model.objects.end());
   const Report turned = m.detect();
   ASSERT_EQ(turned.pairs.size(), all.pairs.size());
@@ -422,9 +422,9 @@ TEST(Detect, OtherObjectsAndTheirOrderDoNotShow) {
     EXPECT_EQ(mirror->d_upper_mm, p.d_upper_mm);
     EXPECT_NEAR(mirror->point_mm.x, p.point_mm.x, 1e-9);
   }
-  // Any two alone say what they said in the crowd.
+  // Any two alone say what they said in the turned_crowd.
   for (std::size_t i = 0; i < all.pairs.size(); i += 7) {
-    const ClashModel pair = crowd(5, 60);
+    const ClashModel pair = turned_crowd(5, 60);
     const model::Scene scene = make_scene(pair.model, scene_options({}), {}).value();
     Sets sets{std::vector<bool>(60, false), std::vector<bool>(60, false)};
     sets.in_a[model::index(all.pairs[i].a)] = sets.in_b[model::index(all.pairs[i].b)] = true;
@@ -436,8 +436,8 @@ TEST(Detect, OtherObjectsAndTheirOrderDoNotShow) {
 }
 
 TEST(Detect, MovedByGridStepsNothingChanges) {
-  const Report here = crowd(9, 80).detect();
-  const Report there = crowd(9, 80, {123456789, -98765432, 5000}).detect();
+  const Report here = turned_crowd(9, 80).detect();
+  const Report there = turned_crowd(9, 80, {123456789, -98765432, 5000}).detect();
   ASSERT_EQ(here.pairs.size(), there.pairs.size());
   for (std::size_t i = 0; i < here.pairs.size(); ++i) {
     EXPECT_EQ(here.pairs[i].cls, there.pairs[i].cls);

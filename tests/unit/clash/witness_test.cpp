@@ -251,10 +251,10 @@ TEST(Witness, OfCrossingSheetsHasNoWayOut) {
   EXPECT_EQ(report.pairs[0].on_a_mm, report.pairs[0].point_mm);
 }
 
-using Draw = std::function<double(int, int)>;
+using DrawInt = std::function<double(int, int)>;
 
 /// A body of any kind that can clash.
-model::Shape any_shape(std::mt19937_64& random, const Draw& draw) {
+model::Shape any_shape(std::mt19937_64& random, const DrawInt& draw) {
   using geometry::Primitive;
   switch (random() % 10) {
     case 0:
@@ -305,7 +305,7 @@ TEST(Witness, LeadsOutOfTheBody) {
   int deep = 0, apart = 0;
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     std::mt19937_64 random(seed);
-    const Draw draw = [&](int lo, int hi) {
+    const DrawInt draw = [&](int lo, int hi) {
       return static_cast<double>(lo + static_cast<int>(random() % static_cast<unsigned>(hi - lo)));
     };
     const Placement feature_a{random() % 2 == 0 ? kTurn : Mat3d{}, {}};

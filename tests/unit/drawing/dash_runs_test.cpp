@@ -77,11 +77,11 @@ TEST(DashFit, FewPatternsServeMostShortStrokes) {
 }
 
 /// The lines from point to point, and the runs that they make.
-struct Drawn {
+struct DashedPolyline {
   std::vector<Line> lines;
   PaperCurves curves;
 
-  explicit Drawn(const std::vector<PaperPoint>& points) {
+  explicit DashedPolyline(const std::vector<PaperPoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
       Line line;
       line.edge = static_cast<std::uint32_t>(i - 1);
@@ -112,7 +112,8 @@ std::vector<PaperPoint> polygon(int corners, double radius) {
 }
 
 TEST(DashRuns, CornersAreTurnedWithADash) {
-  const std::vector<DashRun> runs = Drawn({{0, 0}, {40, 0}, {40, 25}, {0, 25}, {0, 0}}).runs();
+  const std::vector<DashRun> runs =
+      DashedPolyline({{0, 0}, {40, 0}, {40, 25}, {0, 25}, {0, 0}}).runs();
   ASSERT_EQ(runs.size(), 4U);
   for (const DashRun& run : runs) {
     ASSERT_EQ(run.chain.points.size(), 2U);
@@ -125,7 +126,7 @@ TEST(DashRuns, CornersAreTurnedWithADash) {
 // A closed chain may begin anywhere: in the middle of a side it would have a dash that is cut.
 TEST(DashRuns, ClosedChainsBeginAtACorner) {
   const std::vector<DashRun> runs =
-      Drawn({{20, 0}, {40, 0}, {40, 25}, {0, 25}, {0, 0}, {20, 0}}).runs();
+      DashedPolyline({{20, 0}, {40, 0}, {40, 25}, {0, 25}, {0, 0}, {20, 0}}).runs();
   ASSERT_EQ(runs.size(), 4U);
   std::size_t of_two = 0;
   for (const DashRun& run : runs) of_two += run.chain.points.size() == 3 ? 1U : 0U;
@@ -134,7 +135,7 @@ TEST(DashRuns, ClosedChainsBeginAtACorner) {
 
 TEST(DashRuns, PolygonsThatStandForCirclesAreOneRoundStroke) {
   for (const double radius : {1.5, 5.0, 20.0}) {
-    const std::vector<DashRun> runs = Drawn(polygon(16, radius)).runs();
+    const std::vector<DashRun> runs = DashedPolyline(polygon(16, radius)).runs();
     ASSERT_EQ(runs.size(), 1U);
     const double periods =
         32 * radius * geometry::sin_cos(geometry::kPi / 16).sin / (3.75 * runs.front().stretch);
@@ -145,7 +146,7 @@ TEST(DashRuns, PolygonsThatStandForCirclesAreOneRoundStroke) {
 
 // Each side of the head of a bolt is too short for a gap; its whole outline is not.
 TEST(DashRuns, SidesTooShortForAGapShareOne) {
-  const std::vector<DashRun> runs = Drawn(polygon(6, 1.8)).runs();
+  const std::vector<DashRun> runs = DashedPolyline(polygon(6, 1.8)).runs();
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_GT(runs.front().stretch, 0);
   EXPECT_EQ(runs.front().chain.lines.size(), 6U);
@@ -154,7 +155,7 @@ TEST(DashRuns, SidesTooShortForAGapShareOne) {
 // Chords of a circle are shorter than its arcs: a quarter of eight percent would be a cut dash.
 TEST(DashRuns, CurvesCountWithTheLengthsOfTheirArcs) {
   constexpr double kRadius = 30;
-  Drawn drawn(polygon(8, kRadius));
+  DashedPolyline drawn(polygon(8, kRadius));
   drawn.curves.all.push_back({{0, 0}, {kRadius, 0}, {0, kRadius}});
   for (std::uint32_t e = 0; e < 8; ++e) drawn.curves.edges.push_back({model::ObjectId{}, e, 0U});
   const std::vector<DashRun> runs = drawn.runs();
@@ -167,7 +168,7 @@ TEST(DashRuns, NothingIsLostAndOrderIsKept) {
   const std::vector<PaperPoint> points{{0, 0}, {1, 0}, {9, 0}, {9, 1}, {10, 1}, {10, 12}, {11, 30}};
   double length = 0;
   PaperPoint at{0, 0};
-  const Drawn drawn(points);  // the runs refer to its lines
+  const DashedPolyline drawn(points);  // the runs refer to its lines
   for (const DashRun& run : drawn.runs()) {
     EXPECT_EQ(run.chain.points.front(), at);
     at = run.chain.points.back();

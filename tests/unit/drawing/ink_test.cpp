@@ -25,7 +25,7 @@ Line line(PaperPoint a, PaperPoint b, LineState state, double depth_mm = 0,
   return l;
 }
 
-NeutralDrawing from_top(std::vector<Line> lines) {
+NeutralDrawing paper_from_top(std::vector<Line> lines) {
   NeutralDrawing drawing;
   drawing.view.direction = {0, 0, 1};
   drawing.view.up = {0, 1, 0};
@@ -50,7 +50,7 @@ double length_of(const Ink& ink, LineState state) {
 constexpr LineState kVisible = LineState::visible, kHidden = LineState::hidden_by_other;
 
 TEST(Ink, TakesTheStatesThatAreRequested) {
-  const NeutralDrawing drawing = from_top(
+  const NeutralDrawing drawing = paper_from_top(
       {line({0, 0}, {50, 0}, kVisible), line({0, 20}, {50, 20}, kHidden),
        line({0, 40}, {50, 40}, LineState::duplicate), line({0, 60}, {50, 60}, LineState::clipped)});
   EXPECT_EQ(ink_of(drawing, {.hidden = false}).lines.size(), 1U);
@@ -61,8 +61,8 @@ TEST(Ink, TakesTheStatesThatAreRequested) {
 // The far edge of a thin plate: 0.3 mm below a line half a millimetre wide.
 TEST(Ink, HiddenLinesWhoseInkTouchesAVisibleLineAreLeftOut) {
   const NeutralDrawing drawing =
-      from_top({line({0, 0}, {50, 0}, kVisible), line({0, 0.3}, {80, 0.3}, kHidden),
-                line({0, 1}, {50, 1}, kHidden)});
+      paper_from_top({line({0, 0}, {50, 0}, kVisible), line({0, 0.3}, {80, 0.3}, kHidden),
+                      line({0, 1}, {50, 1}, kHidden)});
   const Ink ink = ink_of(drawing);
   EXPECT_DOUBLE_EQ(ink.pens.edge, 0.5);
   ASSERT_EQ(ink.lines.size(), 3U);
@@ -79,9 +79,9 @@ TEST(Ink, HiddenLinesWhoseInkTouchesAVisibleLineAreLeftOut) {
 
 TEST(Ink, LinesThatCrossOrMeetStay) {
   const NeutralDrawing drawing =
-      from_top({line({0, 10}, {50, 10}, kVisible), line({25, 0}, {25, 20}, kHidden),
-                line({50, 10}, {60, 30}, kHidden), line({50, 10}, {80, 10}, kHidden),
-                line({0, 10.1}, {0, 30}, kHidden)});
+      paper_from_top({line({0, 10}, {50, 10}, kVisible), line({25, 0}, {25, 20}, kHidden),
+                      line({50, 10}, {60, 30}, kHidden), line({50, 10}, {80, 10}, kHidden),
+                      line({0, 10.1}, {0, 30}, kHidden)});
   const Ink ink = ink_of(drawing);
   EXPECT_EQ(ink.lines.size(), 5U);
   EXPECT_EQ(ink.left_out, 0U);
@@ -89,8 +89,8 @@ TEST(Ink, LinesThatCrossOrMeetStay) {
 
 TEST(Ink, OfHiddenLinesThatTouchTheNearerStays) {
   const NeutralDrawing drawing =
-      from_top({line({0, 0}, {50, 0}, kHidden, 1), line({0, 0.1}, {50, 0.1}, kHidden, 7),
-                line({0, 0.2}, {50, 0.2}, kHidden, 3), line({0, 2}, {50, 2}, kVisible)});
+      paper_from_top({line({0, 0}, {50, 0}, kHidden, 1), line({0, 0.1}, {50, 0.1}, kHidden, 7),
+                      line({0, 0.2}, {50, 0.2}, kHidden, 3), line({0, 2}, {50, 2}, kVisible)});
   const Ink ink = ink_of(drawing);
   ASSERT_EQ(ink.lines.size(), 2U);
   EXPECT_DOUBLE_EQ(ink.lines[0].a_mm.z, 7);
@@ -100,7 +100,7 @@ TEST(Ink, OfHiddenLinesThatTouchTheNearerStays) {
 TEST(Ink, VisibleLinesAreNeverLeftOut) {
   std::vector<Line> lines;
   for (int i = 0; i < 100; ++i) lines.push_back(line({0, i * 0.01}, {50, i * 0.01}, kVisible));
-  EXPECT_EQ(ink_of(from_top(lines)).lines.size(), 100U);
+  EXPECT_EQ(ink_of(paper_from_top(lines)).lines.size(), 100U);
 }
 
 /// A circle of short lines, clockwise or not.
@@ -121,7 +121,7 @@ TEST(Ink, CirclesGoOrStayByWholeLines) {
   add_circle(lines, {50, 50.1}, 3, 36, 0.4, kHidden, 1);
   lines.push_back(line({0, 0}, {20, 0}, kVisible));
   const std::vector<Line> given = lines;
-  const Ink ink = ink_of(from_top(lines));
+  const Ink ink = ink_of(paper_from_top(lines));
   std::size_t near = 0, far = 0;
   for (const Line& l : ink.lines) {
     near += l.a_mm.z == 5 ? 1U : 0U;
@@ -133,7 +133,7 @@ TEST(Ink, CirclesGoOrStayByWholeLines) {
   // One circle alone: neighbours of a chain do not eat each other.
   std::vector<Line> alone;
   add_circle(alone, {50, 50}, 0.4, 40, 0, kHidden, 5);
-  EXPECT_GE(ink_of(from_top(alone)).lines.size(), 36U);
+  EXPECT_GE(ink_of(paper_from_top(alone)).lines.size(), 36U);
 }
 
 Pens pens_of(const NeutralDrawing& drawing, const parallel::Context& context = {}) {
@@ -146,19 +146,19 @@ TEST(Ink, PensFollowTheDensityWhereTheLinesAre) {
   const auto stripes = [](double step) {
     std::vector<Line> lines{line({0, 290}, {400, 290}, kVisible)};  // and much white
     for (double x = 0; x < 40; x += step) lines.push_back(line({x, 0}, {x, 40}, kVisible));
-    return ink_of(from_top(lines)).pens.edge;
+    return ink_of(paper_from_top(lines)).pens.edge;
   };
   EXPECT_DOUBLE_EQ(stripes(5), 0.5);
   EXPECT_DOUBLE_EQ(stripes(1), 0.35);
   EXPECT_DOUBLE_EQ(stripes(0.8), 0.25);
   EXPECT_DOUBLE_EQ(stripes(0.6), 0.18);
   EXPECT_DOUBLE_EQ(stripes(0.2), 0.18);
-  EXPECT_DOUBLE_EQ(ink_of(from_top({})).pens.edge, 0.5);
+  EXPECT_DOUBLE_EQ(ink_of(paper_from_top({})).pens.edge, 0.5);
 }
 
 // At 100000:1 a view reaches many kilometres beyond its sheet.
 TEST(Ink, WhatLiesOffTheSheetIsNotDense) {
-  NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});
+  NeutralDrawing drawing = paper_from_top({line({0, 290}, {400, 290}, kVisible)});
   const double edge = pens_of(drawing).edge;
   const double far = 5e8;
   for (int i = 0; i < 200; ++i) {
@@ -176,7 +176,7 @@ TEST(Ink, WhatLiesOffTheSheetIsNotDense) {
 
 TEST(Ink, PensAreALineGroupOfTheStandard) {
   const auto pens_on = [](double width_mm, double height_mm, double step) {
-    NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});
+    NeutralDrawing drawing = paper_from_top({line({0, 290}, {400, 290}, kVisible)});
     for (double x = 0; x < 40; x += step) drawing.lines.push_back(line({x, 0}, {x, 40}, kVisible));
     drawing.sheet.width_mm = width_mm;
     drawing.sheet.height_mm = height_mm;
@@ -203,7 +203,7 @@ TEST(Ink, PensAreThoseOfAllLinesForAnyTeam) {
   for (int stripe = 0; stripe < 50; ++stripe)
     for (int i = 0; i < kPieces; ++i)
       lines.push_back(line(at(stripe * 0.8, i), at(stripe * 0.8, i + 1), kVisible));
-  const NeutralDrawing drawing = from_top(lines);
+  const NeutralDrawing drawing = paper_from_top(lines);
   EXPECT_DOUBLE_EQ(pens_of(drawing).edge, 0.25);
   for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
     parallel::Team team(threads);
@@ -215,7 +215,7 @@ TEST(Ink, ChoosingPensCanBeCancelled) {
   std::stop_source stop;
   stop.request_stop();
   const auto pens =
-      choose_pens(from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
+      choose_pens(paper_from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
   ASSERT_FALSE(pens);
   EXPECT_EQ(pens.error().code, ErrorCode::cancelled);
 }
@@ -225,7 +225,7 @@ TEST(Ink, IsTheSameForAnyTeam) {
   for (int i = 0; i < 400; ++i)
     add_circle(lines, {20 + i * 0.5, 50 + (i % 7) * 0.03}, 3 + (i % 5) * 0.05, 24, i * 0.1,
                i % 3 == 0 ? kVisible : kHidden, i % 11);
-  const NeutralDrawing drawing = from_top(lines);
+  const NeutralDrawing drawing = paper_from_top(lines);
   const Ink expected = ink_of(drawing);
   EXPECT_GT(expected.left_out, 100U);
   for (const unsigned threads : {2U, 3U, 8U}) {

@@ -21,14 +21,14 @@
 namespace strake::drawing {
 namespace {
 
-constexpr LineState kVisible = LineState::visible;
+constexpr LineState kDrawn = LineState::visible;
 
 Line thin_test_line(PaperPoint a, PaperPoint b, std::uint32_t object = 0,
                     hlr::EdgeKind kind = hlr::EdgeKind::sharp) {
   Line l;
   l.object = l.other = model::ObjectId{object};
   l.kind = kind;
-  l.state = kVisible;
+  l.state = kDrawn;
   l.a_paper = a;
   l.b_paper = b;
   l.a_mm = {a.x, -a.y, 0};

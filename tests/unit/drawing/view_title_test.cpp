@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec3l;
 
-constexpr std::int64_t kMm = 1000;  // grid units
+constexpr std::int64_t kUnitsPerMm = 1000;  // grid units
 
 TEST(ViewTitle, StatesTheSections) {
   const auto title = [](std::vector<hlr::Section> sections, Vec3l direction = {0, 0, 1}) {
@@ -23,14 +23,14 @@ TEST(ViewTitle, StatesTheSections) {
     view.sections = std::move(sections);
     return title_of("top", view);
   };
-  const hlr::Section deck{{0, 0, 1}, {0, 0, 4'500 * kMm}};
+  const hlr::Section deck{{0, 0, 1}, {0, 0, 4'500 * kUnitsPerMm}};
   EXPECT_EQ(title({}), "top");
   EXPECT_EQ(title({deck}), "SECTION z = 4.5 m");
   EXPECT_EQ(title({deck}, {0, 0, -1}), "SECTION z = 4.5 m");
   EXPECT_EQ(title({deck}, {1, -1, 1}), "top, SECTION z = 4.5 m");
   EXPECT_EQ(title({deck, {{-1, 0, 0}, {350'125, 0, 0}}}), "top, SECTION z = 4.5 m, x = 350.125 mm");
   EXPECT_EQ(title({{{0, 0, -1}, {}}}), "SECTION z = 0 m");
-  EXPECT_EQ(title({{{0, 0, 1}, {0, 0, -100'000'000 * kMm}}}), "SECTION z = -100000 m");
+  EXPECT_EQ(title({{{0, 0, 1}, {0, 0, -100'000'000 * kUnitsPerMm}}}), "SECTION z = -100000 m");
   // A plane across no axis, at a grid point beside its distance from the origin.
   const auto askew = parse_section("3,4,0>12500mm", {0, 0, 1});
   ASSERT_TRUE(askew);

@@ -16,6 +16,7 @@
 #include "geometry/numeric/trig.hpp"
 #include "geometry/primitives/tessellate.hpp"
 #include "support/contour_edges.hpp"
+#include "support/pipe_frame.hpp"
 #include "support/random_primitives.hpp"
 #include "support/rounds.hpp"
 #include "support/true_surface.hpp"
@@ -205,18 +206,6 @@ TEST(Contours, OfATorusLieOnTheTrueOnes) {
   RecordProperty("worst", std::to_string(worst));
 }
 
-/// Local frame at an end of an elbow, z along the pipe.
-Mat3d pipe_frame(const Mat3d& elbow, double angle, double roll) {
-  const Vec3d x = elbow * Vec3d{std::cos(angle), std::sin(angle), 0};
-  const Vec3d y = elbow * Vec3d{0, 0, 1};
-  const Vec3d z = elbow * Vec3d{-std::sin(angle), std::cos(angle), 0};
-  const Vec3d u = x * std::cos(roll) + y * std::sin(roll),
-              v = y * std::cos(roll) - x * std::sin(roll);
-  Mat3d m;
-  m.row = {Vec3d{u.x, v.x, z.x}, Vec3d{u.y, v.y, z.y}, Vec3d{u.z, v.z, z.z}};
-  return m;
-}
-
 // In every view, whatever frames they were drawn in.
 TEST(Contours, RimsOfPipeAndElbowMeet) {
   PrimitiveDraw draw(6);
@@ -232,7 +221,7 @@ TEST(Contours, RimsOfPipeAndElbowMeet) {
         tessellate(CircularTorusPrimitive{bend, tube, angle}, elbow, 0.5, towards);
     ASSERT_EQ(t.fault, "");
     for (const double at : {0.0, angle}) {
-      const Mat3d frame = pipe_frame(elbow, at, draw.between(0, 6));
+      const Mat3d frame = test::pipe_frame(elbow, at, draw.between(0, 6));
       const Tessellation pipe = tessellate(CylinderPrimitive{tube, 2000}, frame, 0.5, towards);
       const Vec3d centre = elbow * Vec3d{bend * std::cos(at), bend * std::sin(at), 0};
       const Vec3d along = frame * Vec3d{0, 0, 1};
@@ -354,7 +343,7 @@ TEST(ContoursFromAnEye, RimsOfPipeAndElbowMeet) {
         tessellate_from(eye, CircularTorusPrimitive{bend, tube, angle}, elbow, 0.5);
     ASSERT_EQ(t.fault, "");
     for (const double at : {0.0, angle}) {
-      const Mat3d frame = pipe_frame(elbow, at, draw.between(0, 6));
+      const Mat3d frame = test::pipe_frame(elbow, at, draw.between(0, 6));
       const Vec3d along = frame * Vec3d{0, 0, 1};
       const Vec3d end = elbow * Vec3d{bend * std::cos(at), bend * std::sin(at), 0};
       const Vec3d middle = end - along * 1000.0;

@@ -22,7 +22,7 @@ using testing::Subject;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-IndexedMesh moved(IndexedMesh mesh, const Vec3i& by) {
+IndexedMesh shifted(IndexedMesh mesh, const Vec3i& by) {
   for (Vec3i& v : mesh.vertices) v = v + by;
   return mesh;
 }
@@ -38,7 +38,7 @@ std::pair<Subject, Subject> crossing_pipes(int sides) {
   IndexedMesh across = pipe;
   for (Vec3i& v : across.vertices) v = {v.z, v.y, v.x};
   return {Subject(testing::turned(pipe)),
-          Subject(testing::turned(moved(across, {0, 208'000, 0})), {7, 1LL << 40, -3})};
+          Subject(testing::turned(shifted(across, {0, 208'000, 0})), {7, 1LL << 40, -3})};
 }
 
 TEST(HullDistance, PipesThatCrossComeApartAtOnce) {
@@ -109,7 +109,7 @@ TEST(HullDistance, TheHintChangesNoAnswer) {
     const auto place = [&] { return 1000 * (static_cast<std::int32_t>(draw.below(20)) - 10); };
     IndexedMesh x = draw_body(draw), y = draw_body(draw);
     const std::int32_t by_x = place(), by_y = place(), by_z = place();
-    y = moved(std::move(y), {by_x, by_y, by_z});
+    y = shifted(std::move(y), {by_x, by_y, by_z});
     if (draw.below(2) == 0) {
       x = testing::turned(std::move(x));
       y = testing::turned(std::move(y));

@@ -24,9 +24,9 @@ using testing::IndexedMesh;
 using testing::Subject;
 using testing::turned;
 
-class Draw {
+class DrawReal {
  public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  explicit DrawReal(std::uint64_t seed) : random_(seed) {}
   double in(double lo, double hi) {
     return lo + (hi - lo) * static_cast<double>(random_() % 1'000'000) * 1e-6;
   }
@@ -42,7 +42,7 @@ class Draw {
 };
 
 /// A box with others in it and through its sides, as one mesh.
-IndexedMesh boxes(Draw& draw) {
+IndexedMesh boxes(DrawReal& draw) {
   IndexedMesh all = box_mesh({0, 0, 0}, {100'000, 100'000, 100'000});
   for (int i = 0; i < 10; ++i) {
     Vec3i lo, hi;
@@ -74,7 +74,7 @@ IndexedMesh pyramid(double lean, double azimuth, double half, double height) {
 
 /// A wide one and slender ones that end beyond its base, as one mesh: faces that cross have the
 /// apex in common, and most of each is outside the others.
-IndexedMesh pyramids(Draw& draw) {
+IndexedMesh pyramids(DrawReal& draw) {
   IndexedMesh all = pyramid(0, 0, draw.in(80'000, 120'000), 100'000);
   for (int i = 0; i < 12; ++i) {
     const double lean = draw.in(0, 0.9), azimuth = draw.in(0, 6.3);
@@ -84,7 +84,7 @@ IndexedMesh pyramids(Draw& draw) {
 }
 
 /// A box about a point, so far to each side.
-IndexedMesh about(const Vec3d& p, double least, double most, Draw& draw) {
+IndexedMesh about(const Vec3d& p, double least, double most, DrawReal& draw) {
   Vec3i lo, hi;
   for (int k = 0; k < 3; ++k) {
     lo[k] = static_cast<std::int32_t>(p[k]) - draw.whole(least, most);
@@ -99,7 +99,7 @@ void expect_no_level_clear_below_a_point(const Make& make) {
   int queries = 0;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
     SCOPED_TRACE(seed);
-    Draw draw(seed);
+    DrawReal draw(seed);
     const IndexedMesh two = make(draw);
     const Subject a(seed % 2 == 0 ? turned(two) : two);
     const PartWithBvh part = a.treed();

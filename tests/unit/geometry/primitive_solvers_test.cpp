@@ -15,7 +15,7 @@ namespace {
 
 using test::PrimitiveDraw;
 
-constexpr double kPerMm = 1000;
+constexpr double kUnitsPerMm = 1000;
 
 /// b placed in a's frame, both in a turned and shifted one; what the snap moves is at most 2 units.
 PrimitiveSeparation of(const Primitive& a, const Primitive& b, const Placement& b_in_a,
@@ -33,7 +33,7 @@ PrimitiveSeparation of(const Primitive& a, const Primitive& b, const Placement& 
 
 void expect_d(const PrimitiveSeparation& s, double mm, const std::string& what,
               double width = 0.5) {
-  EXPECT_NEAR(s.d, mm * kPerMm, s.error() + 2) << what;
+  EXPECT_NEAR(s.d, mm * kUnitsPerMm, s.error() + 2) << what;
   EXPECT_LE((s.upper - s.lower) / 2, width) << what;
 }
 
@@ -120,14 +120,14 @@ TEST(PrimitiveSolvers, NestedAndEqual) {
   // A rod askew in a drum: inside by what is left to the nearer end.
   const Mat3d askew{{Vec3d{0.8, 0, 0.6}, Vec3d{0, 1, 0}, Vec3d{-0.6, 0, 0.8}}};
   const PrimitiveSeparation in = of(drum, rod, {askew, {0, 0, 300}}, 5);
-  EXPECT_NEAR(in.b_inside_a, (200 - (150 * 0.8 + 20 * 0.6)) * kPerMm, 3);
+  EXPECT_NEAR(in.b_inside_a, (200 - (150 * 0.8 + 20 * 0.6)) * kUnitsPerMm, 3);
   EXPECT_LT(in.a_inside_b, 0);
   const PrimitiveSeparation under = of(drum, dish, {{}, {0, 0, 450}}, 5);
   EXPECT_NEAR(under.b_inside_a, 0, 3);
   const PrimitiveSeparation same = of(dish, dish, {}, 5);
   EXPECT_LE(same.difference, 1);
   // The dish's deepest point: the centre of the largest ball between base and dome.
-  EXPECT_NEAR(same.d, -25 * kPerMm, 1);
+  EXPECT_NEAR(same.d, -25 * kUnitsPerMm, 1);
 }
 
 TEST(PrimitiveSolvers, SheetsAreMeasuredInTheOther) {

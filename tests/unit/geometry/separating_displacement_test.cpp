@@ -31,11 +31,13 @@ using testing::Subject;
 using testing::turned_by;
 
 constexpr double kMax = 3;
-constexpr std::int32_t kLength = 1'000'000, kWidth = 120'000, kHeight = 110'000, kWall = 10'000;
+constexpr std::int32_t kChannelLength = 1'000'000, kChannelWidth = 120'000,
+                       kChannelHeight = 110'000, kChannelWall = 10'000;
 
 /// Fills a channel from `from` to `to`, and goes into its walls and its floor by `over`.
 IndexedMesh filling(std::int32_t from, std::int32_t to, std::int32_t over) {
-  return box_mesh({from, kWall - over, kWall - over}, {to, kWidth - kWall + over, kHeight});
+  return box_mesh({from, kChannelWall - over, kChannelWall - over},
+                  {to, kChannelWidth - kChannelWall + over, kChannelHeight});
 }
 
 std::optional<SeparatingDisplacement> shrunk(const Subject& a, const Subject& b,
@@ -70,8 +72,9 @@ TEST(SeparatingDisplacementTest, ABoxThatFillsAChannelIsATie) {
   int met = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Mat3d turn = Draw(seed).rotation();
-    const Subject a(turned_by(turn, channel(kLength, kWidth, kHeight, kWall)));
-    const Subject b(turned_by(turn, filling(0, kLength - 200'000, 0)));
+    const Subject a(
+        turned_by(turn, channel(kChannelLength, kChannelWidth, kChannelHeight, kChannelWall)));
+    const Subject b(turned_by(turn, filling(0, kChannelLength - 200'000, 0)));
     if (!interiors_meet(a, b)) continue;
     ++met;
     const auto proved = shrunk(a, b);
@@ -92,7 +95,8 @@ TEST(SeparatingDisplacementTest, WhatIsDeeperIsNeverATie) {
   for (std::uint64_t seed = 0; seed < 60; ++seed)
     for (const std::int32_t over : {1, 2, 3, 4, 6, 8, 500}) {
       const Mat3d turn = seed == 0 ? Mat3d{} : Draw(seed).rotation();
-      const Subject a(turned_by(turn, channel(kLength, kWidth, kHeight, kWall)));
+      const Subject a(
+          turned_by(turn, channel(kChannelLength, kChannelWidth, kChannelHeight, kChannelWall)));
       const Subject b(turned_by(turn, filling(seed % 2 == 0 ? 0 : 100'000, 900'000, over)));
       const auto proved = shrunk(a, b);
       if (over >= 6) {
@@ -109,12 +113,14 @@ TEST(SeparatingDisplacementTest, WhatIsDeeperIsNeverATie) {
 TEST(SeparatingDisplacementTest, WhatIsInsideOrTheSameIsNoTie) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Mat3d turn = Draw(seed).rotation();
-    const Subject a(turned_by(turn, channel(kLength, kWidth, kHeight, kWall)));
+    const Subject a(
+        turned_by(turn, channel(kChannelLength, kChannelWidth, kChannelHeight, kChannelWall)));
     EXPECT_FALSE(shrunk(a, a)) << "seed " << seed;
     const Subject floor(turned_by(turn, box_mesh({1000, 1000, 1000}, {900'000, 100'000, 9'000})));
     EXPECT_FALSE(shrunk(a, floor)) << "seed " << seed;
     EXPECT_FALSE(shrunk(floor, a)) << "seed " << seed;
-    const Subject flush(turned_by(turn, box_mesh({0, 0, 0}, {kLength, kWidth, kWall})));
+    const Subject flush(
+        turned_by(turn, box_mesh({0, 0, 0}, {kChannelLength, kChannelWidth, kChannelWall})));
     EXPECT_FALSE(shrunk(a, flush)) << "seed " << seed;
     EXPECT_FALSE(shrunk(flush, a)) << "seed " << seed;
   }

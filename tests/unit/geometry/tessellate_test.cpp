@@ -14,6 +14,7 @@
 #include "geometry/mesh_repair/snap_to_grid.hpp"
 #include "geometry/numeric/trig.hpp"
 #include "strake/geometry/grid.hpp"
+#include "support/pipe_frame.hpp"
 #include "support/true_surface.hpp"
 
 namespace strake::geometry {
@@ -27,20 +28,13 @@ double uniform(Random& random, double low, double high) {
 
 Vec3d unit(const Vec3d& v) { return v * (1 / std::sqrt(dot(v, v))); }
 
-/// Columns x, y, z.
-Mat3d from_columns(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
-  Mat3d m;
-  m.row = {Vec3d{x.x, y.x, z.x}, Vec3d{x.y, y.y, z.y}, Vec3d{x.z, y.z, z.z}};
-  return m;
-}
-
 Mat3d random_rotation(Random& random) {
   const auto direction = [&] {
     return unit({uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)});
   };
   const Vec3d z = direction(), helper = direction();
   const Vec3d x = unit(cross(helper, z));
-  return from_columns(x, cross(z, x), z);
+  return test::from_columns(x, cross(z, x), z);
 }
 
 Primitive random_primitive(std::size_t kind, Random& random) {
@@ -201,15 +195,6 @@ INSTANTIATE_TEST_SUITE_P(Tessellate, EveryKind,
                          ::testing::Range<std::size_t>(0, std::variant_size_v<Primitive> - 1),
                          name_of);
 
-/// Local frame at the end of an elbow (sweep angle) or its start, z along the pipe.
-Mat3d pipe_frame(const Mat3d& elbow, double angle, double roll) {
-  const Vec3d x = elbow * Vec3d{std::cos(angle), std::sin(angle), 0};
-  const Vec3d y = elbow * Vec3d{0, 0, 1};
-  const Vec3d z = elbow * Vec3d{-std::sin(angle), std::cos(angle), 0};
-  return from_columns(x * std::cos(roll) + y * std::sin(roll),
-                      y * std::cos(roll) - x * std::sin(roll), z);
-}
-
 std::vector<Vec3d> near_plane(const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& normal) {
   std::vector<Vec3d> on;
   for (const Vec3d& v : mesh.vertices)
@@ -226,12 +211,13 @@ TEST(Tessellate, RimsOfPipeAndElbowMeet) {
     const double angle = seed % 2 == 0 ? kPi / 2 : uniform(random, 0.1, 3);
     Mat3d elbow = random_rotation(random);
     if (seed % 4 == 0)  // in the planes of the model's axes
-      elbow = from_columns({0, 0, 1}, {seed % 8 == 0 ? 0.0 : 1.0, seed % 8 == 0 ? 1.0 : 0.0, 0},
-                           {seed % 8 == 0 ? -1.0 : 0.0, seed % 8 == 0 ? 0.0 : 1.0, 0});
+      elbow =
+          test::from_columns({0, 0, 1}, {seed % 8 == 0 ? 0.0 : 1.0, seed % 8 == 0 ? 1.0 : 0.0, 0},
+                             {seed % 8 == 0 ? -1.0 : 0.0, seed % 8 == 0 ? 0.0 : 1.0, 0});
     const Tessellation t = tessellate(CircularTorusPrimitive{bend, tube, angle}, elbow, 0.5);
     ASSERT_EQ(t.fault, "");
     for (const double at : {0.0, angle}) {
-      const Mat3d frame = pipe_frame(elbow, at, uniform(random, 0, 6));
+      const Mat3d frame = test::pipe_frame(elbow, at, uniform(random, 0, 6));
       const Tessellation pipe = tessellate(CylinderPrimitive{tube, 2000}, frame, 0.5);
       const Vec3d centre = elbow * Vec3d{bend * std::cos(at), bend * std::sin(at), 0};
       const Vec3d along = frame * Vec3d{0, 0, 1};
@@ -255,8 +241,8 @@ TEST(Tessellate, RimsDoNotDependOnTheLocalFrameOrTheSenseOfTheAxis) {
     const Mat3d frame = seed % 5 == 0 ? Mat3d{} : random_rotation(random);
     const double roll = uniform(random, 0, 6);
     const Vec3d x = frame * Vec3d{1, 0, 0}, y = frame * Vec3d{0, 1, 0}, z = frame * Vec3d{0, 0, 1};
-    const Mat3d other = from_columns(y * std::cos(roll) - x * std::sin(roll),
-                                     x * std::cos(roll) + y * std::sin(roll), z * -1.0);
+    const Mat3d other = test::from_columns(y * std::cos(roll) - x * std::sin(roll),
+                                           x * std::cos(roll) + y * std::sin(roll), z * -1.0);
     const CylinderPrimitive pipe{57.15, 100};
     const Tessellation a = tessellate(pipe, frame, 0.5), b = tessellate(pipe, other, 0.5);
     ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());

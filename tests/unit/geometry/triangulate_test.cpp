@@ -19,7 +19,7 @@
 namespace strake::geometry {
 namespace {
 
-using Random = std::mt19937;
+using Engine = std::mt19937;
 using First = std::vector<std::uint32_t>;
 using Lattice = std::pair<std::int64_t, std::int64_t>;
 
@@ -63,7 +63,7 @@ struct Cells {
   }
 };
 
-Cells random_cells(Random& random, int size) {
+Cells random_cells(Engine& random, int size) {
   Cells cells{size, std::vector<std::uint8_t>(static_cast<std::size_t>(size * size))};
   const auto density = 2 + random() % 7;
   for (auto& c : cells.filled) c = random() % 10 < density ? 1 : 0;
@@ -117,7 +117,7 @@ std::set<std::pair<Lattice, Lattice>> contour_edges(const Face& face) {
 TEST(Triangulate, CellsGiveTheExactAreaAndKeepEveryEdge) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
+    Engine random(seed);
     const Cells cells = random_cells(random, 1 + static_cast<int>(random() % 12));
     const Face face = contours_of(cells);
     if (face.points.empty()) continue;
@@ -131,7 +131,7 @@ TEST(Triangulate, CellsGiveTheExactAreaAndKeepEveryEdge) {
 
 /// Drops most points in the middle of straight runs, so that corners of other contours come to
 /// lie inside edges.
-Face thinned(const Face& face, Random& random) {
+Face thinned(const Face& face, Engine& random) {
   Face thin;
   for (std::size_t c = 0; c + 1 < face.first.size(); ++c) {
     const std::uint32_t begin = face.first[c], end = face.first[c + 1];
@@ -148,7 +148,7 @@ Face thinned(const Face& face, Random& random) {
 TEST(Triangulate, TouchingContoursWithLongEdgesKeepTheArea) {
   for (std::uint32_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed + 1000);
+    Engine random(seed + 1000);
     const Cells cells = random_cells(random, 2 + static_cast<int>(random() % 10));
     if (std::count(cells.filled.begin(), cells.filled.end(), std::uint8_t{1}) == 0) continue;
     const Face face = thinned(contours_of(cells), random);
@@ -174,7 +174,7 @@ TEST(Triangulate, SenseOfTheFirstContourIsKeptAndThatOfHolesIgnored) {
 TEST(Triangulate, AnyPlaneAnyPlaceAnyScale) {
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
+    Engine random(seed);
     const Cells cells = random_cells(random, 8);
     const Face face = contours_of(cells);
     if (face.points.empty()) continue;
@@ -221,7 +221,7 @@ TEST(Triangulate, NonsenseIsEitherAFaultOrRight) {
   int good = 0, crossing = 0;
   for (std::uint32_t seed = 0; seed < 6000; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
+    Engine random(seed);
     const auto span = 2 + random() % 5;
     Face face;
     const auto contours = 1 + random() % 3;
@@ -284,7 +284,7 @@ TEST(Triangulate, BridgedHoleIsUnderstood) {
 }
 
 TEST(Triangulate, NearlyPlanarFaceWorks) {
-  Random random(5);
+  Engine random(5);
   std::uniform_real_distribution<double> noise(-0.01, 0.01);
   std::vector<Vec3d> points;
   for (int i = 0; i < 40; ++i) {
@@ -365,7 +365,7 @@ TEST(Triangulate, ACombOfFiftyThousandVerticesIsQuick) {
 
 TEST(Triangulate, ASpikyWheelOfTwentyThousandVerticesIsQuick) {
   // Round a square: corners on its sides, and points of a small square within.
-  constexpr std::int64_t kSide = 2'500, kFar = 400'000;
+  constexpr std::int64_t kSide = 2'500, kFarAway = 400'000;
   std::vector<Lattice> rim, hub;
   for (std::int64_t s = 0; s < 4; ++s)
     for (std::int64_t i = 0; i < kSide; ++i) {
@@ -373,7 +373,7 @@ TEST(Triangulate, ASpikyWheelOfTwentyThousandVerticesIsQuick) {
         for (std::int64_t k = 0; k < s; ++k) std::tie(x, y) = std::pair(-y, x);
         return Lattice{x, y};
       };
-      rim.push_back(turn(kFar, (2 * i - kSide) * (kFar / kSide)));
+      rim.push_back(turn(kFarAway, (2 * i - kSide) * (kFarAway / kSide)));
       hub.push_back(turn(2 * kSide, 2 * (2 * i - kSide) + 2));
     }
   std::vector<Lattice> wheel;

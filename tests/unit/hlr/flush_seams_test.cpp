@@ -25,11 +25,13 @@ using geometry::Vec3l;
 using hlr::EdgeKind;
 using hlr::EdgePiece;
 
-constexpr std::int32_t kMm = 1000;
-constexpr std::int32_t kContact = 3;  // of what says nothing of its precision
+constexpr std::int32_t kPerMm = 1000;
+constexpr std::int32_t kContactUnits = 3;  // of what says nothing of its precision
 const hlr::View kIso{.direction = {1, -1, 1}, .limits = {}};
 
-test::HandPart box(const Vec3i& lo, const Vec3i& hi) { return test::hand_box(lo * kMm, hi * kMm); }
+test::HandPart box_mm(const Vec3i& lo, const Vec3i& hi) {
+  return test::hand_box(lo * kPerMm, hi * kPerMm);
+}
 
 test::SceneBuilder scene_of(const std::vector<test::HandPart>& objects) {
   test::SceneBuilder scene;
@@ -37,8 +39,8 @@ test::SceneBuilder scene_of(const std::vector<test::HandPart>& objects) {
   return scene;
 }
 
-const test::HandPart kLeft = box({0, 0, 0}, {100, 100, 100});
-const test::HandPart kRight = box({100, 0, 0}, {200, 100, 100});
+const test::HandPart kLeft = box_mm({0, 0, 0}, {100, 100, 100});
+const test::HandPart kRight = box_mm({100, 0, 0}, {200, 100, 100});
 
 hlr::Drawing draw(const test::SceneBuilder& scene, bool seams, hlr::Options options = {},
                   const hlr::View& view = kIso) {
@@ -56,18 +58,20 @@ hlr::Drawing without_seams(const test::SceneBuilder& scene, const hlr::Options& 
 using Is = std::function<bool(const EdgePiece&)>;
 
 /// The length of some pieces in whatever state, millimetres.
-double length_mm(const hlr::Drawing& drawing, const Is& is) {
+double seams_mm(const hlr::Drawing& drawing, const Is& is) {
   double sum = 0;
   for (const EdgePiece& p : drawing.pieces) {
     const auto v = (p.b - p.a).as<double>();
-    sum += is(p) ? std::sqrt(dot(v, v)) / kMm : 0;
+    sum += is(p) ? std::sqrt(dot(v, v)) / kPerMm : 0;
   }
   return sum;
 }
 
 /// Whether a piece lies in the plane across an axis.
 Is in_plane(int axis, std::int64_t at_mm) {
-  return [=](const EdgePiece& p) { return p.a[axis] == at_mm * kMm && p.b[axis] == at_mm * kMm; };
+  return [=](const EdgePiece& p) {
+    return p.a[axis] == at_mm * kPerMm && p.b[axis] == at_mm * kPerMm;
+  };
 }
 
 Is both(const Is& one, const Is& other) {
@@ -84,14 +88,14 @@ TEST(FlushSeams, AreDrawnByDefault) {
   const test::SceneBuilder scene = scene_of({kLeft, kRight});
   const auto drawing = hlr::draw(scene.scene(), {}, kIso, {}, {});
   ASSERT_TRUE(drawing.has_value());
-  EXPECT_NEAR(length_mm(*drawing, in_plane(kX, 100)), 8 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(*drawing, in_plane(kX, 100)), 8 * 100, 1e-6);
   EXPECT_EQ(drawing->counters.seams, 0U);
 }
 
 TEST(FlushSeams, OfTwoEqualBoxesVanishAndNothingElse) {
   const test::SceneBuilder scene = scene_of({kLeft, kRight});
   const hlr::Drawing with = draw(scene, true), without = without_seams(scene);
-  EXPECT_EQ(length_mm(without, in_plane(kX, 100)), 0);
+  EXPECT_EQ(seams_mm(without, in_plane(kX, 100)), 0);
   EXPECT_EQ(without.counters.seams, 8U);
   std::vector<EdgePiece> rest;
   std::ranges::copy_if(with.pieces, std::back_inserter(rest),
@@ -102,26 +106,26 @@ TEST(FlushSeams, OfTwoEqualBoxesVanishAndNothingElse) {
 
 TEST(FlushSeams, VanishInPerspectiveToo) {
   hlr::View view = kIso;
-  const Vec3l target = Vec3l{100, 50, 50} * kMm;
-  view.perspective = hlr::Perspective{target + Vec3l{1, -1, 1} * (500 * kMm), target};
-  EXPECT_EQ(length_mm(without_seams(scene_of({kLeft, kRight}), {}, view), in_plane(kX, 100)), 0);
+  const Vec3l target = Vec3l{100, 50, 50} * kPerMm;
+  view.perspective = hlr::Perspective{target + Vec3l{1, -1, 1} * (500 * kPerMm), target};
+  EXPECT_EQ(seams_mm(without_seams(scene_of({kLeft, kRight}), {}, view), in_plane(kX, 100)), 0);
 }
 
 TEST(FlushSeams, OfDifferentColoursStay) {
   test::SceneBuilder scene = scene_of({kLeft, kRight});
   scene.model().bodies[1].color = {200, 0, 0, 255};
-  EXPECT_NEAR(length_mm(without_seams(scene), in_plane(kX, 100)), 8 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(without_seams(scene), in_plane(kX, 100)), 8 * 100, 1e-6);
   scene.model().bodies[0].color = {200, 0, 0, 255};
-  EXPECT_EQ(length_mm(without_seams(scene), in_plane(kX, 100)), 0);
+  EXPECT_EQ(seams_mm(without_seams(scene), in_plane(kX, 100)), 0);
   scene.model().bodies[1].category = model::Category::insulation;
-  EXPECT_NEAR(length_mm(without_seams(scene), in_plane(kX, 100)), 8 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(without_seams(scene), in_plane(kX, 100)), 8 * 100, 1e-6);
 }
 
 TEST(FlushSeams, OfPartsThatAreNotDrawnStay) {
   const test::SceneBuilder scene = scene_of({kLeft, kRight});
   const auto drawing = hlr::draw(scene.scene(), {true, false}, kIso, {.flush_seams = false}, {});
   ASSERT_TRUE(drawing.has_value());
-  EXPECT_NEAR(length_mm(*drawing, in_plane(kX, 100)), 4 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(*drawing, in_plane(kX, 100)), 4 * 100, 1e-6);
 }
 
 TEST(FlushSeams, AreFoundWithinAnObjectAndWithinABody) {
@@ -130,24 +134,25 @@ TEST(FlushSeams, AreFoundWithinAnObjectAndWithinABody) {
   parts.object({{.parts = {kLeft, kRight}, .origin = {}}});
   for (const test::SceneBuilder* scene : {&bodies, &parts}) {
     const hlr::Drawing drawing = without_seams(*scene);
-    EXPECT_EQ(length_mm(drawing, in_plane(kX, 100)), 0);
+    EXPECT_EQ(seams_mm(drawing, in_plane(kX, 100)), 0);
     EXPECT_EQ(drawing.counters.seams, 8U);
   }
 }
 
 TEST(FlushSeams, VanishAsFarAsBothEdgesReach) {
-  // The right box is narrower: its upper face and its front go on from the left one's.
-  const hlr::Drawing drawing = without_seams(scene_of({kLeft, box({100, 0, 0}, {200, 60, 100})}));
+  // The right box_mm is narrower: its upper face and its front go on from the left one's.
+  const hlr::Drawing drawing =
+      without_seams(scene_of({kLeft, box_mm({100, 0, 0}, {200, 60, 100})}));
   const Is joint = in_plane(kX, 100);
   for (const std::int64_t z : {0, 100}) {
     const Is level = both(joint, in_plane(kZ, z));
-    EXPECT_NEAR(length_mm(drawing, of_object(0, level)), 40, 1e-6);
-    EXPECT_EQ(length_mm(drawing, of_object(1, level)), 0);
+    EXPECT_NEAR(seams_mm(drawing, of_object(0, level)), 40, 1e-6);
+    EXPECT_EQ(seams_mm(drawing, of_object(1, level)), 0);
   }
-  EXPECT_EQ(length_mm(drawing, both(joint, in_plane(kY, 0))), 0);
-  EXPECT_NEAR(length_mm(drawing, both(joint, in_plane(kY, 100))), 100, 1e-6);
+  EXPECT_EQ(seams_mm(drawing, both(joint, in_plane(kY, 0))), 0);
+  EXPECT_NEAR(seams_mm(drawing, both(joint, in_plane(kY, 100))), 100, 1e-6);
   // Where the faces turn the edge stays, although its part touches the other there.
-  EXPECT_NEAR(length_mm(drawing, both(joint, in_plane(kY, 60))), 100, 1e-6);
+  EXPECT_NEAR(seams_mm(drawing, both(joint, in_plane(kY, 60))), 100, 1e-6);
 }
 
 TEST(FlushSeams, AreFlatWithinTheContactDistance) {
@@ -156,13 +161,13 @@ TEST(FlushSeams, AreFlatWithinTheContactDistance) {
     for (Vec3i& v : higher.vertices)
       if (v.z > 0) v.z += more;
     const hlr::Drawing drawing = without_seams(scene_of({kLeft, higher}), {.keep_specks = true});
-    return length_mm(drawing, [](const EdgePiece& p) {
+    return seams_mm(drawing, [](const EdgePiece& p) {
       return in_plane(kX, 100)(p) && p.a.z == p.b.z && p.a.z > 0;
     });
   };
-  for (const std::int32_t more : {-kContact, -1, 0, 1, kContact})
+  for (const std::int32_t more : {-kContactUnits, -1, 0, 1, kContactUnits})
     EXPECT_EQ(upper_edge_mm(more), 0) << more;
-  for (const std::int32_t more : {-kContact - 1, kContact + 1, kMm})
+  for (const std::int32_t more : {-kContactUnits - 1, kContactUnits + 1, kPerMm})
     EXPECT_NEAR(upper_edge_mm(more), 200, 1e-6) << more;
 }
 
@@ -170,59 +175,60 @@ TEST(FlushSeams, AreNoneAcrossAGap) {
   const auto joint_edges_mm = [](std::int32_t gap) {
     test::HandPart moved = kRight;
     for (Vec3i& v : moved.vertices) v.x += gap;
-    return length_mm(without_seams(scene_of({kLeft, moved})), [](const EdgePiece& p) {
-      return p.a.x == p.b.x && p.a.x > 0 && p.a.x < 110 * kMm;
+    return seams_mm(without_seams(scene_of({kLeft, moved})), [](const EdgePiece& p) {
+      return p.a.x == p.b.x && p.a.x > 0 && p.a.x < 110 * kPerMm;
     });
   };
-  EXPECT_EQ(joint_edges_mm(kContact), 0);
-  EXPECT_NEAR(joint_edges_mm(kContact + 1), 8 * 100, 1e-6);
+  EXPECT_EQ(joint_edges_mm(kContactUnits), 0);
+  EXPECT_NEAR(joint_edges_mm(kContactUnits + 1), 8 * 100, 1e-6);
 }
 
 TEST(FlushSeams, AreNoneAtAnInnerCornerThatAThirdPartMakes) {
-  // A box stands on the left one, flush with the joint of the two: all three meet in that line.
+  // A box_mm stands on the left one, flush with the joint of the two: all three meet in that line.
   const hlr::Drawing drawing =
-      without_seams(scene_of({kLeft, kRight, box({0, 0, 100}, {100, 100, 200})}));
+      without_seams(scene_of({kLeft, kRight, box_mm({0, 0, 100}, {100, 100, 200})}));
   const Is corner = both(in_plane(kX, 100), in_plane(kZ, 100));
-  EXPECT_NEAR(length_mm(drawing, corner), 3 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(drawing, corner), 3 * 100, 1e-6);
   // The fronts of the three are one face all the same.
   const Is front = in_plane(kY, 0);
-  EXPECT_EQ(length_mm(drawing, both(front, in_plane(kX, 100))), 100);  // of the one on top
-  EXPECT_EQ(length_mm(drawing, both(front, in_plane(kZ, 100))), 100);  // of the right one
+  EXPECT_EQ(seams_mm(drawing, both(front, in_plane(kX, 100))), 100);  // of the one on top
+  EXPECT_EQ(seams_mm(drawing, both(front, in_plane(kZ, 100))), 100);  // of the right one
 }
 
 TEST(FlushSeams, OfAThirdPartInAnotherColourHideNothing) {
-  test::SceneBuilder scene = scene_of({kLeft, kRight, box({0, 0, 100}, {100, 100, 200})});
+  test::SceneBuilder scene = scene_of({kLeft, kRight, box_mm({0, 0, 100}, {100, 100, 200})});
   scene.model().bodies[2].color = {200, 0, 0, 255};
   const hlr::Drawing drawing = without_seams(scene);
   const Is corner = both(in_plane(kX, 100), in_plane(kZ, 100));
-  EXPECT_EQ(length_mm(drawing, of_object(0, corner)), 0);
-  EXPECT_EQ(length_mm(drawing, of_object(1, corner)), 0);
-  EXPECT_NEAR(length_mm(drawing, of_object(2, corner)), 100, 1e-6);
+  EXPECT_EQ(seams_mm(drawing, of_object(0, corner)), 0);
+  EXPECT_EQ(seams_mm(drawing, of_object(1, corner)), 0);
+  EXPECT_NEAR(seams_mm(drawing, of_object(2, corner)), 100, 1e-6);
 }
 
 TEST(FlushSeams, VanishWithinABlockOfFour) {
-  const hlr::Drawing drawing = without_seams(scene_of(
-      {kLeft, kRight, box({0, 0, 100}, {100, 100, 200}), box({100, 0, 100}, {200, 100, 200})}));
-  EXPECT_EQ(length_mm(drawing, in_plane(kX, 100)), 0);
-  EXPECT_EQ(length_mm(drawing, in_plane(kZ, 100)), 0);
+  const hlr::Drawing drawing =
+      without_seams(scene_of({kLeft, kRight, box_mm({0, 0, 100}, {100, 100, 200}),
+                              box_mm({100, 0, 100}, {200, 100, 200})}));
+  EXPECT_EQ(seams_mm(drawing, in_plane(kX, 100)), 0);
+  EXPECT_EQ(seams_mm(drawing, in_plane(kZ, 100)), 0);
   // The outline of the whole: four edges of 200 mm, four of 100 mm in two halves each way.
-  EXPECT_NEAR(length_mm(drawing, [](const EdgePiece&) { return true; }),
-              4 * 200 + 4 * 200 + 4 * 100, 1e-6);
+  EXPECT_NEAR(seams_mm(drawing, [](const EdgePiece&) { return true; }), 4 * 200 + 4 * 200 + 4 * 100,
+              1e-6);
 }
 
 TEST(FlushSeams, OfABoxOnAPlateAreWhereTheirSidesAreFlush) {
-  const hlr::Drawing drawing =
-      without_seams(scene_of({box({0, 0, 0}, {100, 100, 10}), box({0, 0, 10}, {50, 100, 60})}));
+  const hlr::Drawing drawing = without_seams(
+      scene_of({box_mm({0, 0, 0}, {100, 100, 10}), box_mm({0, 0, 10}, {50, 100, 60})}));
   const Is joint = in_plane(kZ, 10);
-  EXPECT_EQ(length_mm(drawing, both(joint, in_plane(kX, 0))), 0);
+  EXPECT_EQ(seams_mm(drawing, both(joint, in_plane(kX, 0))), 0);
   for (const std::int64_t y : {0, 100})
-    EXPECT_NEAR(length_mm(drawing, both(joint, in_plane(kY, y))), 50, 1e-6);
-  EXPECT_NEAR(length_mm(drawing, both(joint, in_plane(kX, 50))), 100, 1e-6);
+    EXPECT_NEAR(seams_mm(drawing, both(joint, in_plane(kY, y))), 50, 1e-6);
+  EXPECT_NEAR(seams_mm(drawing, both(joint, in_plane(kX, 50))), 100, 1e-6);
 }
 
 test::HandPart sheet(const Vec3i& a, const Vec3i& b, const Vec3i& c, const Vec3i& d) {
   test::HandPart part;
-  part.vertices = {a * kMm, b * kMm, c * kMm, d * kMm};
+  part.vertices = {a * kPerMm, b * kPerMm, c * kPerMm, d * kPerMm};
   part.triangles = {{0, 1, 2}, {0, 2, 3}};
   part.faces = {0, 0};
   return part;
@@ -234,21 +240,21 @@ TEST(FlushSeams, OfSheetsGoOnInOnePlaneWhicheverWayTheyAreWound) {
   const test::HandPart turned = sheet({100, 0, 0}, {100, 100, 0}, {200, 100, 0}, {200, 0, 0});
   const test::HandPart upright = sheet({100, 0, 0}, {100, 100, 0}, {100, 100, 100}, {100, 0, 100});
   const Is joint = both(in_plane(kX, 100), in_plane(kZ, 0));
-  EXPECT_EQ(length_mm(without_seams(scene_of({left, right})), joint), 0);
-  EXPECT_EQ(length_mm(without_seams(scene_of({left, turned})), joint), 0);
-  EXPECT_NEAR(length_mm(without_seams(scene_of({left, upright})), joint), 200, 1e-6);
-  EXPECT_NEAR(length_mm(without_seams(scene_of({left, right, upright})), joint), 300, 1e-6);
+  EXPECT_EQ(seams_mm(without_seams(scene_of({left, right})), joint), 0);
+  EXPECT_EQ(seams_mm(without_seams(scene_of({left, turned})), joint), 0);
+  EXPECT_NEAR(seams_mm(without_seams(scene_of({left, upright})), joint), 200, 1e-6);
+  EXPECT_NEAR(seams_mm(without_seams(scene_of({left, right, upright})), joint), 300, 1e-6);
   // A sheet that goes on from the face of a solid.
   const test::HandPart from_solid =
       sheet({100, 0, 100}, {200, 0, 100}, {200, 100, 100}, {100, 100, 100});
-  EXPECT_NEAR(length_mm(without_seams(scene_of({kLeft, from_solid})),
-                        both(in_plane(kX, 100), in_plane(kZ, 100))),
+  EXPECT_NEAR(seams_mm(without_seams(scene_of({kLeft, from_solid})),
+                       both(in_plane(kX, 100), in_plane(kZ, 100))),
               200, 1e-6);
 }
 
 hlr::View cut_at(std::int64_t z_mm) {
   hlr::View view = kIso;
-  view.sections = {{{0, 0, 1}, {0, 0, z_mm * kMm}}};
+  view.sections = {{{0, 0, 1}, {0, 0, z_mm * kPerMm}}};
   return view;
 }
 
@@ -256,26 +262,25 @@ TEST(FlushSeams, OfWhatASectionLeavesVanishAndTheCutFacesStayApart) {
   const hlr::Drawing drawing =
       without_seams(scene_of({kLeft, kRight}), {.hatch_spacing_mm = 0}, cut_at(50));
   const Is joint = in_plane(kX, 100);
-  EXPECT_EQ(length_mm(drawing,
-                      [&](const EdgePiece& p) {
-                        return joint(p) && p.kind == EdgeKind::sharp &&
-                               p.state != hlr::State::clipped;
-                      }),
+  EXPECT_EQ(seams_mm(drawing,
+                     [&](const EdgePiece& p) {
+                       return joint(p) && p.kind == EdgeKind::sharp &&
+                              p.state != hlr::State::clipped;
+                     }),
             0);
-  EXPECT_NEAR(
-      length_mm(drawing,
-                [&](const EdgePiece& p) { return joint(p) && p.kind == EdgeKind::section; }),
-      200, 1e-6);
+  EXPECT_NEAR(seams_mm(drawing,
+                       [&](const EdgePiece& p) { return joint(p) && p.kind == EdgeKind::section; }),
+              200, 1e-6);
 }
 
 TEST(FlushSeams, StayWhereOnlyOneOfThePartsIsLeft) {
   const hlr::Drawing drawing = without_seams(
       scene_of({kLeft, kRight}), {.hatch_spacing_mm = 0, .uncut = {true, false}}, cut_at(40));
   const Is front = both(in_plane(kX, 100), in_plane(kY, 0));
-  EXPECT_NEAR(length_mm(drawing, of_object(0, front)), 60, 1e-2);
+  EXPECT_NEAR(seams_mm(drawing, of_object(0, front)), 60, 1e-2);
   EXPECT_EQ(
-      length_mm(drawing,
-                of_object(0, both(front, [](const EdgePiece& p) { return p.b.z <= 40 * kMm; }))),
+      seams_mm(drawing,
+               of_object(0, both(front, [](const EdgePiece& p) { return p.b.z <= 40 * kPerMm; }))),
       0);
 }
 
@@ -292,14 +297,14 @@ TEST(FlushSeams, AreFoundHoweverTheModelStands) {
       }
       return part;
     };
-    const test::HandPart wide = turned(box({0, 0, 0}, {1000, 1000, 20}));
-    const test::HandPart narrow = turned(box({1000, 150, 0}, {1600, 850, 20}));
+    const test::HandPart wide = turned(box_mm({0, 0, 0}, {1000, 1000, 20}));
+    const test::HandPart narrow = turned(box_mm({1000, 150, 0}, {1600, 850, 20}));
     // Rounding makes intersections as well, which go with the seams along which they run.
     const Is edge = [](const EdgePiece& p) { return p.kind != EdgeKind::intersection; };
-    const double all = length_mm(draw(scene_of({wide, narrow}), true), edge);
+    const double all = seams_mm(draw(scene_of({wide, narrow}), true), edge);
     const hlr::Drawing drawing = without_seams(scene_of({wide, narrow}));
     // Both edges of the upper and of the lower joint, over the width of the narrow plate.
-    EXPECT_NEAR(all - length_mm(drawing, edge), 4 * 700, 0.1) << "round " << round;
+    EXPECT_NEAR(all - seams_mm(drawing, edge), 4 * 700, 0.1) << "round " << round;
     EXPECT_GE(drawing.counters.seams, 4U) << "round " << round;
   }
 }

@@ -21,7 +21,7 @@ using hlr::State;
 
 constexpr std::int32_t kMm = 1000;
 
-test::HandPart box(std::int32_t x, std::int32_t y, std::int32_t z, std::int32_t size) {
+test::HandPart cube_mm(std::int32_t x, std::int32_t y, std::int32_t z, std::int32_t size) {
   return test::hand_box({x * kMm, y * kMm, z * kMm},
                         {(x + size) * kMm, (y + size) * kMm, (z + size) * kMm});
 }
@@ -60,7 +60,7 @@ const hlr::View kPlan{.direction = {0, 0, 1},
 
 TEST(Hatch, LinesTimesSpacingAreTheArea) {
   test::SceneBuilder scene;
-  scene.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {}}});
   for (const double spacing : {10.0, 7.0})
     for (const double degrees : {45.0, 30.0, 120.0}) {
       const auto lines =
@@ -82,7 +82,7 @@ TEST(Hatch, LinesTimesSpacingAreTheArea) {
 
 TEST(Hatch, ObliquePlanesAreHatchedInTheirOwnPlane) {
   test::SceneBuilder scene;
-  scene.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {777, -555, 333}}});
+  scene.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {777, -555, 333}}});
   const hlr::View view{
       .direction = {1, -1, 1}, .limits = {}, .sections = {{{1, 0, 1}, {1000 * kMm, 0, 0}}}};
   const auto lines = hatch(scene, view, {.hatch_spacing_mm = 10});
@@ -93,9 +93,9 @@ TEST(Hatch, ObliquePlanesAreHatchedInTheirOwnPlane) {
 
 TEST(Hatch, NeighboursDifferAndWhatIsNearerHides) {
   test::SceneBuilder scene;
-  scene.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {}}});
-  scene.object({{.parts = {box(1000, 0, 0, 1000)}, .origin = {}}});
-  scene.object({{.parts = {box(5000, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(1000, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(5000, 0, 0, 1000)}, .origin = {}}});
   std::set<long> angles[3];
   for (const EdgePiece& p : hatch(scene, kPlan, {.hatch_spacing_mm = 50})) {
     const auto v = (p.b - p.a).as<double>();
@@ -111,7 +111,7 @@ TEST(Hatch, NeighboursDifferAndWhatIsNearerHides) {
   oblique.sections = {{{0, -1, 0}, {0, 600 * kMm, 0}}, {{0, 0, 1}, {0, 0, 500 * kMm}}};
   EXPECT_FALSE(hatch(scene, oblique, {.hatch_spacing_mm = 50}).empty());
   test::SceneBuilder hidden;
-  hidden.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {}}});
+  hidden.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {}}});
   hidden.object({{.parts = {test::hand_box({-9000 * kMm, -3000 * kMm, -9000 * kMm},
                                            {9000 * kMm, -2000 * kMm, 499 * kMm})},
                   .origin = {}}});
@@ -125,7 +125,7 @@ TEST(Hatch, NeighboursDifferAndWhatIsNearerHides) {
 
 TEST(Hatch, CutsThatLookAwayAndThoseSeenEdgeOnAreNotHatched) {
   test::SceneBuilder scene;
-  scene.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {}}});
   hlr::View view = kPlan;
   view.sections[0].normal = {0, 0, -1};
   EXPECT_TRUE(hatch(scene, view).empty());
@@ -136,7 +136,7 @@ TEST(Hatch, CutsThatLookAwayAndThoseSeenEdgeOnAreNotHatched) {
 
 TEST(Hatch, WhatMakesNoSenseIsAnError) {
   test::SceneBuilder scene;
-  scene.object({{.parts = {box(0, 0, 0, 1000)}, .origin = {}}});
+  scene.object({{.parts = {cube_mm(0, 0, 0, 1000)}, .origin = {}}});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<hlr::Options> wrong(7);
   wrong[0].hatch_spacing_mm = nan;

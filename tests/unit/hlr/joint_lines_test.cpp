@@ -25,7 +25,7 @@ using hlr::EdgeKind;
 using hlr::Intersections;
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kRunsSeed = 5;
 
 /// z to x, x to y, y to z.
 const Mat3d kAlongX{{Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}};
@@ -118,7 +118,7 @@ const std::vector<Vec3l> kDirections{{1, -1, 1}, {0, -1, 0}, {0, 0, 1}, {3, 5, -
 
 /// As it is, and turned.
 std::vector<Mat3d> turns(int more) {
-  test::Draw random(kSeed);
+  test::Draw random(kRunsSeed);
   std::vector<Mat3d> result{Mat3d{}};
   for (int i = 0; i < more; ++i) result.push_back(random.rotation());
   return result;

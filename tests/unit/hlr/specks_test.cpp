@@ -22,8 +22,8 @@ using hlr::State;
 
 constexpr double kLongest = 6;  // twice the contact distance of what says nothing of its precision
 
-hlr::Drawing drawn(const test::SceneBuilder& scene, const Vec3l& direction,
-                   const hlr::Options& options = {}) {
+hlr::Drawing drawn_along(const test::SceneBuilder& scene, const Vec3l& direction,
+                         const hlr::Options& options = {}) {
   auto drawing = hlr::draw(scene.scene(), {}, {.direction = direction, .limits = {}}, options, {});
   EXPECT_TRUE(drawing.has_value());
   return drawing ? *drawing : hlr::Drawing{};
@@ -73,10 +73,10 @@ TEST(Specks, FlushCubesHaveWholeEdgesHoweverTheyStand) {
       const geometry::Mat3d how = turn == 0 ? geometry::Mat3d{} : random.rotation();
       const test::SceneBuilder scene = stair(size, how);
       for (const Vec3l& direction : {Vec3l{1, -1, 1}, {3, -2, 5}}) {
-        const hlr::Drawing drawing = drawn(scene, direction);
+        const hlr::Drawing drawing = drawn_along(scene, direction);
         EXPECT_EQ(specks(drawing, direction), 0) << size << ", turn " << turn;
         EXPECT_GT(drawing.counters.specks, 0U) << size << ", turn " << turn;
-        exact += specks(drawn(scene, direction, {.keep_specks = true}), direction);
+        exact += specks(drawn_along(scene, direction, {.keep_specks = true}), direction);
       }
     }
   EXPECT_GT(exact, 100);
@@ -84,7 +84,7 @@ TEST(Specks, FlushCubesHaveWholeEdgesHoweverTheyStand) {
 
 TEST(Specks, EdgesFollowEachOtherWithoutAGap) {
   const test::SceneBuilder scene = stair(100000, {});
-  const auto pieces = drawn(scene, {1, -1, 1}).pieces;
+  const auto pieces = drawn_along(scene, {1, -1, 1}).pieces;
   for (std::size_t i = 1; i < pieces.size(); ++i)
     if (pieces[i].object == pieces[i - 1].object && pieces[i].edge == pieces[i - 1].edge) {
       EXPECT_EQ(pieces[i].a, pieces[i - 1].b);
@@ -98,10 +98,10 @@ TEST(Specks, AnObjectOfNothingElseIsNotDrawn) {
     scene.object({{.parts = {test::hand_box({0, 0, 0}, {50000, 50000, 50000})}, .origin = {}}});
     scene.object(
         {{.parts = {test::hand_box({90000, 0, 0}, {90000 + size, size, size})}, .origin = {}}});
-    const hlr::Drawing drawing = drawn(scene, {1, -1, 1});
+    const hlr::Drawing drawing = drawn_along(scene, {1, -1, 1});
     EXPECT_EQ(drawing.account.fates[0], Fate::drawn);
     EXPECT_EQ(drawing.account.fates[1] == Fate::drawn, size == 30) << size;
-    const hlr::Drawing exact = drawn(scene, {1, -1, 1}, {.keep_specks = true});
+    const hlr::Drawing exact = drawn_along(scene, {1, -1, 1}, {.keep_specks = true});
     EXPECT_EQ(exact.account.fates[1], Fate::drawn);
   }
 }
@@ -122,7 +122,7 @@ TEST(Specks, ChordsOfAFineRimStay) {
     }
     test::SceneBuilder scene;
     scene.object({{.parts = {disc}, .origin = {}}});
-    const hlr::Drawing drawing = drawn(scene, {0, 0, 1});
+    const hlr::Drawing drawing = drawn_along(scene, {0, 0, 1});
     EXPECT_EQ(drawing.counters.specks, 0U);
     EXPECT_EQ(drawing.pieces.size(), kSides);
     for (const hlr::EdgePiece& p : drawing.pieces) EXPECT_EQ(p.state, State::visible);
@@ -135,11 +135,11 @@ TEST(Specks, SolversAgreeAndHiddenPiecesDecideNothing) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const test::SceneBuilder scene = test::lattice_scene(seed, {.unit = 6});
     hlr::Options options{.contact_distance_mm = 0.003};
-    const hlr::Drawing all = drawn(scene, view.direction, options);
+    const hlr::Drawing all = drawn_along(scene, view.direction, options);
     specks += all.counters.specks;
     for (const hlr::Solver solver : {hlr::Solver::brute_force, hlr::Solver::push}) {
       options.solver = solver;
-      const hlr::Drawing other = drawn(scene, view.direction, options);
+      const hlr::Drawing other = drawn_along(scene, view.direction, options);
       ASSERT_EQ(other.pieces.size(), all.pieces.size()) << seed;
       ASSERT_EQ(other.counters.specks, all.counters.specks) << seed;
       for (std::size_t i = 0; i < all.pieces.size(); ++i) {
@@ -149,7 +149,7 @@ TEST(Specks, SolversAgreeAndHiddenPiecesDecideNothing) {
       }
     }
     options = {.contact_distance_mm = 0.003, .hidden = false};
-    const hlr::Drawing visible_only = drawn(scene, view.direction, options);
+    const hlr::Drawing visible_only = drawn_along(scene, view.direction, options);
     std::size_t next = 0;
     for (const hlr::EdgePiece& p : all.pieces) {
       if (p.state != State::visible) continue;

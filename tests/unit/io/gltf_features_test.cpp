@@ -23,13 +23,13 @@ namespace {
 using model::Attributes;
 using test::bytes_of;
 
-Result<model::Model> read(const std::string& bytes) {
+Result<model::Model> read_features(const std::string& bytes) {
   return test::read_bytes(*make_gltf_reader(), bytes, "x.glb");
 }
 
 /// A document of three instances, whose second has row 0, first row 2 and third no row, and of a
 /// mesh that is row 1. Columns of all kinds. `from` of its JSON is written as `to`.
-std::string document(const std::string& from = "", const std::string& to = "") {
+std::string features_document(const std::string& from = "", const std::string& to = "") {
   std::string binary, views;
   const auto view = [&](const std::string& bytes) {
     views += (views.empty() ? "" : ",") + std::string(R"({"buffer":0,"byteOffset":)") +
@@ -52,7 +52,7 @@ std::string document(const std::string& from = "", const std::string& to = "") {
   view(bytes_of(std::vector<std::uint8_t>{1, 1, 1}));                    // 11
   view("T1T2T3");                                                        // 12
   view(std::string("\0\2\4\6", 4));                                      // 13
-  std::string json =
+  std::string text =
       R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_structural_metadata"],"buffers":[)"
       R"({"byteLength":)" +
       std::to_string(binary.size()) + R"(}],"bufferViews":[)" + views +
@@ -78,12 +78,12 @@ std::string document(const std::string& from = "", const std::string& to = "") {
       R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1,"_FEATURE_ID_0":2}},)"
       R"("EXT_instance_features":{"featureIds":[{"featureCount":2,"attribute":0,"nullFeatureId":9,)"
       R"("propertyTable":0}]}}},{"name":"one","mesh":1}]})";
-  json.replace(json.find(from), from.size(), to);
-  return test::glb(json, binary);
+  text.replace(text.find(from), from.size(), to);
+  return test::glb(text, binary);
 }
 
 TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
-  const Result<model::Model> model = read(document());
+  const Result<model::Model> model = read_features(features_document());
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_TRUE(model->diagnostics.kept().empty());
   ASSERT_EQ(model->objects.size(), 4U);
@@ -116,12 +116,12 @@ TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
 /// A mesh is of one storey and has parts that are features of their own: what is said of all of it
 /// counts.
 TEST(GltfFeatures, OfSeveralSetsThoseByWhichAMeshIsOneFeatureCount) {
-  const Result<model::Model> model =
-      read(document(R"("_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
-                    R"([{"featureCount":1,"attribute":0,"propertyTable":0}])",
-                    R"("_FEATURE_ID_0":2,"_FEATURE_ID_1":3},"extensions":{"EXT_mesh_features":)"
-                    R"({"featureIds":[{"featureCount":3,"attribute":0,"propertyTable":0},)"
-                    R"({"featureCount":1,"attribute":1,"propertyTable":0}])"));
+  const Result<model::Model> model = read_features(
+      features_document(R"("_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
+                        R"([{"featureCount":1,"attribute":0,"propertyTable":0}])",
+                        R"("_FEATURE_ID_0":2,"_FEATURE_ID_1":3},"extensions":{"EXT_mesh_features":)"
+                        R"({"featureIds":[{"featureCount":3,"attribute":0,"propertyTable":0},)"
+                        R"({"featureCount":1,"attribute":1,"propertyTable":0}])"));
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_EQ(model->diagnostics.count("gltf-features"), 1U);
   ASSERT_EQ(model->objects[3].attributes.size(), 5U);
@@ -133,7 +133,7 @@ TEST(GltfFeatures, SkipsAnInstanceWithoutAPlace) {
   const float none = std::numeric_limits<float>::quiet_NaN();
   const std::string binary = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
                              bytes_of(std::vector<float>{1, 0, 0, 0, none, 0, 0, 0, 3});
-  const Result<model::Model> model = read(
+  const Result<model::Model> model = read_features(
       test::glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
                 R"("bufferViews":[{"buffer":0,"byteLength":36},)"
                 R"({"buffer":0,"byteOffset":36,"byteLength":36}],)"
@@ -158,7 +158,7 @@ TEST(GltfFeatures, SkipsAnInstanceWithoutAPlace) {
 /// A number that can be none of a list's is named as the file writes it.
 TEST(GltfFeatures, NamesAWrongNumberAsItIsWritten) {
   for (const char* const number : {"-1", "1.5", "\"x\"", "1e99", "7"}) {
-    const Result<model::Model> model = read(test::glb(
+    const Result<model::Model> model = read_features(test::glb(
         std::string(R"({"asset":{"version":"2.0"},"accessors":[],"meshes":[{"primitives":)"
                     R"([{"attributes":{"POSITION":)") +
         number + R"(}}]}],"nodes":[{"mesh":0}]})"));
@@ -176,7 +176,7 @@ TEST(GltfFeatures, NamesAWrongNumberAsItIsWritten) {
 TEST(GltfFeatures, WhatStandsForNothingIsComparedAsStored) {
   const auto attributes = [](const std::string& column, const std::string& more,
                              std::size_t object) {
-    const Result<model::Model> model = read(document(column, column + more));
+    const Result<model::Model> model = read_features(features_document(column, column + more));
     EXPECT_TRUE(model) << model.error().text();
     return model ? model->objects[object].attributes : Attributes{};
   };
@@ -213,12 +213,12 @@ TEST(GltfFeatures, ColumnsShareTheWordsOfAnEnumeration) {
 }
 
 TEST(GltfFeatures, WhatCannotBeReadIsReported) {
-  std::string bytes = document();
+  std::string bytes = features_document();
   const auto replaced = [&](const std::string& from, const std::string& to) {
     std::string other = bytes;
     EXPECT_EQ(from.size(), to.size());
     other.replace(other.find(from), from.size(), to);
-    return read(other);
+    return read_features(other);
   };
   const auto column = replaced(R"("Width":{"values":5})", R"("Width":{"valuez":5})");
   ASSERT_TRUE(column);
@@ -237,7 +237,7 @@ TEST(GltfFeatures, WhatCannotBeReadIsReported) {
 }
 
 TEST(GltfFeatures, DamageIsSurvived) {
-  const std::string whole = document();
+  const std::string whole = features_document();
   std::mt19937 random(11);
   for (int round = 0; round < 3000; ++round) {
     std::string bytes = whole;
@@ -247,7 +247,7 @@ TEST(GltfFeatures, DamageIsSurvived) {
           random() % 2 == 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
     }
     if (round % 10 == 0) bytes.resize(random() % bytes.size());
-    const Result<model::Model> model = read(bytes);
+    const Result<model::Model> model = read_features(bytes);
     if (model) {
       EXPECT_EQ(test::model_fault(*model), "") << round;
     }

@@ -83,26 +83,28 @@ View sequence(const std::vector<std::uint16_t>& indices, std::size_t vertices) {
 }
 
 /// A GLB of the views with `rest` behind them, all plain or all packed.
-std::string document(const std::vector<View>& views, const std::string& rest, bool packed) {
-  std::string binary, json;
+std::string packed_document(const std::vector<View>& views, const std::string& rest, bool packed) {
+  std::string binary, buffer_views;
   for (const View& view : views) {
     const std::string& bytes = packed ? view.packed : view.plain;
-    json += json.empty() ? "{" : ",{";
-    json += packed ? fmt::format(R"("buffer":1,"byteLength":{},"extensions":)"
-                                 R"({{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{},)"
-                                 R"("byteLength":{},{}}}}})",
-                                 view.plain.size(), binary.size(), bytes.size(), view.words)
-                   : fmt::format(R"("buffer":0,"byteOffset":{},"byteLength":{})", binary.size(),
-                                 bytes.size());
-    if (!packed && view.stride != 0) json += fmt::format(R"(,"byteStride":{})", view.stride);
-    json += '}';
+    buffer_views += buffer_views.empty() ? "{" : ",{";
+    buffer_views += packed
+                        ? fmt::format(R"("buffer":1,"byteLength":{},"extensions":)"
+                                      R"({{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{},)"
+                                      R"("byteLength":{},{}}}}})",
+                                      view.plain.size(), binary.size(), bytes.size(), view.words)
+                        : fmt::format(R"("buffer":0,"byteOffset":{},"byteLength":{})",
+                                      binary.size(), bytes.size());
+    if (!packed && view.stride != 0)
+      buffer_views += fmt::format(R"(,"byteStride":{})", view.stride);
+    buffer_views += '}';
     binary += bytes;
     binary.resize((binary.size() + 3) / 4 * 4);
   }
   return test::glb(
       R"({"asset":{"version":"2.0"},"extensionsRequired":["EXT_meshopt_compression"],)" +
           fmt::format(R"("buffers":[{{"byteLength":{}}},{{"byteLength":4096}}],)", binary.size()) +
-          R"("bufferViews":[)" + json + "]," + rest + "}",
+          R"("bufferViews":[)" + buffer_views + "]," + rest + "}",
       binary);
 }
 
@@ -126,13 +128,13 @@ const std::string kFloatAccessors =
     R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
     R"("nodes":[{"mesh":0,"name":"box"}])";
 
-Result<model::Model> read(const std::string& bytes) {
+Result<model::Model> read_packed(const std::string& bytes) {
   return test::read_bytes(*make_gltf_reader(), bytes, "x.glb");
 }
 
 std::string difference(const std::vector<View>& views, const std::string& rest) {
-  Result<model::Model> plain = read(document(views, rest, false));
-  const Result<model::Model> packed = read(document(views, rest, true));
+  Result<model::Model> plain = read_packed(packed_document(views, rest, false));
+  const Result<model::Model> packed = read_packed(packed_document(views, rest, true));
   EXPECT_TRUE(plain);
   if (!packed) return packed.error().text();
   plain->files = packed->files;
@@ -177,7 +179,7 @@ TEST(GltfPacked, QuantisedLinesAndInstances) {
 TEST(GltfPacked, WhatItsBytesCannotHoldIsRefusedBeforeMemoryIsRequested) {
   std::vector<View> views{attributes(bytes_of(box_corners()), 12), triangles(box_indices(), 8)};
   views[0].words = R"("byteStride":12,"count":4000000000,"mode":"ATTRIBUTES")";
-  const Result<model::Model> refused = read(document(views, kFloatAccessors, true));
+  const Result<model::Model> refused = read_packed(packed_document(views, kFloatAccessors, true));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("cannot hold"), std::string::npos)
       << refused.error().text();
@@ -188,7 +190,7 @@ TEST(GltfPacked, WhatItsBytesCannotHoldIsRefusedBeforeMemoryIsRequested) {
         R"("byteStride":12,"count":8,"mode":"COLOURS")",
         R"("byteStride":12,"mode":"ATTRIBUTES")"}) {
     views[0].words = words;
-    EXPECT_FALSE(read(document(views, kFloatAccessors, true))) << words;
+    EXPECT_FALSE(read_packed(packed_document(views, kFloatAccessors, true))) << words;
   }
 }
 
@@ -280,10 +282,10 @@ TEST(GltfPacked, AFilePackedByVersion1) {
   const std::vector<View> views{corners, triangles(box_indices(), 8)};
   EXPECT_EQ(difference(views, kFloatAccessors), "");
   // Under the name that the extension has since, of the same length.
-  std::string bytes = document(views, kFloatAccessors, true);
+  std::string bytes = packed_document(views, kFloatAccessors, true);
   for (std::size_t at = 0; (at = bytes.find("EXT_meshopt", at)) != std::string::npos;)
     bytes.replace(at, 3, "KHR");
-  const Result<model::Model> model = read(bytes);
+  const Result<model::Model> model = read_packed(bytes);
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_EQ(model->bodies.size(), 1U);
 }
@@ -303,8 +305,8 @@ TEST(GltfPacked, DamageOfVersion1IsSurvived) {
 /// Bytes of a view or of the document that are changed or cut off never do worse than lose the
 /// object.
 TEST(GltfPacked, DamageIsSurvived) {
-  const std::string whole =
-      document({exponential(box_corners()), triangles(box_indices(), 8)}, kFloatAccessors, true);
+  const std::string whole = packed_document(
+      {exponential(box_corners()), triangles(box_indices(), 8)}, kFloatAccessors, true);
   std::mt19937 random(7);
   for (int round = 0; round < 1500; ++round) {
     std::string bytes = whole;
@@ -314,7 +316,7 @@ TEST(GltfPacked, DamageIsSurvived) {
     for (std::size_t k = 0; k < damaged; ++k)
       bytes[from + random() % (bytes.size() - from)] = static_cast<char>(random());
     if (round % 10 == 0) bytes.resize(random() % bytes.size());
-    const Result<model::Model> model = read(bytes);
+    const Result<model::Model> model = read_packed(bytes);
     if (model) {
       EXPECT_EQ(test::model_fault(*model), "") << round;
     }

@@ -53,8 +53,8 @@ std::string repeated(const std::string& text, std::size_t count) {
 }
 
 /// One triangle mesh without indices; `mesh` and `accessor` are further members of those.
-std::string document(const std::string& nodes, const std::string& mesh = {},
-                     const std::string& accessor = {}, std::size_t primitives = 1) {
+std::string hostile_document(const std::string& nodes, const std::string& mesh = {},
+                             const std::string& accessor = {}, std::size_t primitives = 1) {
   return glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36}],)"
              R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{)" +
                  accessor + R"("bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)" +
@@ -65,9 +65,9 @@ std::string document(const std::string& nodes, const std::string& mesh = {},
 }
 
 TEST(HostileGltf, ManyNodesThatStateNothing) {
-  EXPECT_NE(reason(read_glb(document(repeated("{}", 2'000'000)))).find("more nodes"),
+  EXPECT_NE(reason(read_glb(hostile_document(repeated("{}", 2'000'000)))).find("more nodes"),
             std::string::npos);
-  EXPECT_TRUE(read_glb(document(R"({"mesh":0},)" + repeated("{}", 100'000))).model);
+  EXPECT_TRUE(read_glb(hostile_document(R"({"mesh":0},)" + repeated("{}", 100'000))).model);
 }
 
 TEST(HostileGltf, LeavesBelowAChainOfGroups) {
@@ -79,7 +79,7 @@ TEST(HostileGltf, LeavesBelowAChainOfGroups) {
     children += fmt::format("{}{}", i == 0 ? "" : ",", kChain + 1 + i);
   nodes += R"({"name":"last","children":[)" + children + "]}," +
            repeated(R"({"mesh":0,"name":"leaf"})", kLeaves);
-  const std::string bytes = document(nodes);
+  const std::string bytes = hostile_document(nodes);
   const Timed timed = read_glb(bytes);
   ASSERT_TRUE(timed.model) << timed.model.error().text();
   EXPECT_LT(timed.seconds, kPatience);
@@ -93,7 +93,7 @@ TEST(HostileGltf, LeavesBelowAChainOfGroups) {
 TEST(HostileGltf, LongPathsStayApart) {
   const std::string long_name(300, 'x');
   const auto ids = [&](const std::string& outer, const std::string& leaf) {
-    const Timed timed = read_glb(document(fmt::format(
+    const Timed timed = read_glb(hostile_document(fmt::format(
         R"({{"name":"{}","children":[1]}},{{"name":"{}","children":[2]}},{{"mesh":0,"name":"{}"}})",
         outer, long_name, leaf)));
     return timed.model ? timed.model->objects.at(0).id : "";
@@ -108,8 +108,8 @@ TEST(HostileGltf, MembersThatAreNoneOfOurs) {
   std::string junk;
   for (int i = 0; i < 100'000; ++i) junk += fmt::format(R"("j{}":0,)", i);
   // Nameless nodes ask the mesh for its name, primitives ask the accessor for everything.
-  for (const std::string& bytes : {document(repeated(R"({"mesh":0})", 100'000), junk),
-                                   document(R"({"mesh":0})", "", junk, 100'000)}) {
+  for (const std::string& bytes : {hostile_document(repeated(R"({"mesh":0})", 100'000), junk),
+                                   hostile_document(R"({"mesh":0})", "", junk, 100'000)}) {
     const Timed timed = read_glb(bytes);
     ASSERT_TRUE(timed.model) << timed.model.error().text();
     EXPECT_LT(timed.seconds, kPatience);

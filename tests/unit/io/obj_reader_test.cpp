@@ -13,13 +13,13 @@ using geometry::Polylines;
 using geometry::TriangleMesh;
 using geometry::Vec3d;
 
-Result<model::Model> read(std::string_view text, const ReadOptions& options = {},
-                          const std::filesystem::path& path = "some/model.obj") {
+Result<model::Model> read_obj(std::string_view text, const ReadOptions& options = {},
+                              const std::filesystem::path& path = "some/model.obj") {
   return test::read_bytes(*make_obj_reader(), text, path, options);
 }
 
-model::Model read_ok(std::string_view text, const ReadOptions& options = {}) {
-  Result<model::Model> result = read(text, options);
+model::Model read_obj_ok(std::string_view text, const ReadOptions& options = {}) {
+  Result<model::Model> result = read_obj(text, options);
   EXPECT_TRUE(result) << (result ? "" : result.error().text());
   return result ? std::move(*result) : model::Model{};
 }
@@ -32,7 +32,7 @@ const TriangleMesh& mesh_of(const model::Model& model, std::size_t object, std::
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(ObjReader, ReadsOneTriangleAsAnObjectNamedAfterTheFile) {
-  const model::Model model = read_ok(std::string(kTriangle) + "f 1 2 3\n");
+  const model::Model model = read_obj_ok(std::string(kTriangle) + "f 1 2 3\n");
   ASSERT_EQ(model.objects.size(), 1U);
   EXPECT_EQ(model.objects[0].name, "model");
   EXPECT_EQ(model.objects[0].id, "model");
@@ -47,7 +47,7 @@ TEST(ObjReader, ReadsOneTriangleAsAnObjectNamedAfterTheFile) {
 }
 
 TEST(ObjReader, ReadsCornersWithTextureAndNormal) {
-  const model::Model model = read_ok(
+  const model::Model model = read_obj_ok(
       "v 0 0 0 1 0.5 0.5\r\nv 1 0 0\r\nv 0 1 0\r\nvt 0 0\nvn 0 0 1\n"
       "f 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf -3 -2 -1\r\n"
       "\tf  -3/-1/-1\t-2/-1/-1 -1/-1/-1 # a comment\n");
@@ -59,24 +59,24 @@ TEST(ObjReader, ReadsCornersWithTextureAndNormal) {
 /// The mark is no part of the first line: without it all vertices would count one less.
 TEST(ObjReader, ReadsWhatIsBehindAByteOrderMark) {
   const model::Model model =
-      read_ok("\xEF\xBB\xBF" + std::string(kTriangle) + "v 5 5 5\nf 1 2 3\n");
+      read_obj_ok("\xEF\xBB\xBF" + std::string(kTriangle) + "v 5 5 5\nf 1 2 3\n");
   ASSERT_EQ(model.objects.size(), 1U);
   EXPECT_EQ(mesh_of(model, 0).vertices, (std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 
   const test::TemporaryFolder folder;
   (void)folder.write("c.mtl", "\xEF\xBB\xBFnewmtl red\nKd 1 0 0\n");
   const Result<model::Model> named =
-      read("\xEF\xBB\xBFmtllib c.mtl\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n", {},
-           folder.path() / "x.obj");
+      read_obj("\xEF\xBB\xBFmtllib c.mtl\n" + std::string(kTriangle) + "usemtl red\nf 1 2 3\n", {},
+               folder.path() / "x.obj");
   ASSERT_TRUE(named);
   EXPECT_EQ(named->bodies[0].color, (model::Color{255, 0, 0, 255}));
 }
 
 /// What is not read is missing from its object, not from nowhere.
 TEST(ObjReader, ObjectsWithFreeFormGeometryAreIncomplete) {
-  const model::Model model = read_ok(std::string(kTriangle) +
-                                     "o a\nf 1 2 3\no b\ncstype bspline\nsurf 0 1 0 1 1 2 3\n"
-                                     "curv2 1 2\nend\no c\nf 1 2 3\ncurv 0 1 1 2\n");
+  const model::Model model = read_obj_ok(std::string(kTriangle) +
+                                         "o a\nf 1 2 3\no b\ncstype bspline\nsurf 0 1 0 1 1 2 3\n"
+                                         "curv2 1 2\nend\no c\nf 1 2 3\ncurv 0 1 1 2\n");
   ASSERT_EQ(model.objects.size(), 3U);
   EXPECT_FALSE(model.objects[0].incomplete);
   EXPECT_TRUE(model.objects[1].incomplete);
@@ -89,10 +89,11 @@ TEST(ObjReader, ObjectsWithFreeFormGeometryAreIncomplete) {
 }
 
 TEST(ObjReader, NamesGroupsUnderObjects) {
-  const model::Model model = read_ok(std::string(kTriangle) +
-                                     "f 1 2 3\no Deck 1\nf 1 2 3\ng plate\nf 1 2 3\ng stiffener\n"
-                                     "f 1 2 3\ng plate\nf 3 2 1\no Deck 2\ng plate\nf 1 2 3\n"
-                                     "o empty\no tail\ng none\n");
+  const model::Model model =
+      read_obj_ok(std::string(kTriangle) +
+                  "f 1 2 3\no Deck 1\nf 1 2 3\ng plate\nf 1 2 3\ng stiffener\n"
+                  "f 1 2 3\ng plate\nf 3 2 1\no Deck 2\ng plate\nf 1 2 3\n"
+                  "o empty\no tail\ng none\n");
   ASSERT_EQ(model.objects.size(), 5U);
   const auto text = [&](std::size_t i) {
     const model::Object& o = model.objects[i];
@@ -110,7 +111,7 @@ TEST(ObjReader, NamesGroupsUnderObjects) {
 
 TEST(ObjReader, TriangulatesPolygonsAndKeepsTheirFaces) {
   const model::Model model =
-      read_ok("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\n");
+      read_obj_ok("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\nf 1 2 3\n");
   const TriangleMesh& mesh = mesh_of(model, 0);
   ASSERT_EQ(mesh.triangles.size(), 4U);
   EXPECT_EQ(mesh.faces, (std::vector<std::uint32_t>{0, 0, 0, 1}));
@@ -126,13 +127,13 @@ TEST(ObjReader, TriangulatesPolygonsAndKeepsTheirFaces) {
 }
 
 TEST(ObjReader, KeepsTheEdgesOfPolygonsThatCrossThemselves) {
-  const model::Model model = read_ok("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
+  const model::Model model = read_obj_ok("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n");
   EXPECT_EQ(mesh_of(model, 0).triangles, (std::vector<geometry::Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(model.diagnostics.count("obj-crossing-face"), 1U);
 }
 
 TEST(ObjReader, ReadsPolylines) {
-  const model::Model model = read_ok("v 0 0 0\nv 1 0 0\nv 1 1 0\no axis\nl 1 2 3\nl -1 -3\n");
+  const model::Model model = read_obj_ok("v 0 0 0\nv 1 0 0\nv 1 1 0\no axis\nl 1 2 3\nl -1 -3\n");
   ASSERT_EQ(model.objects.size(), 1U);
   const auto& lines = std::get<Polylines>(model.shapes.at(0));
   EXPECT_EQ(lines.points,
@@ -141,7 +142,7 @@ TEST(ObjReader, ReadsPolylines) {
 }
 
 TEST(ObjReader, JoinsContinuationLines) {
-  const model::Model model = read_ok(
+  const model::Model model = read_obj_ok(
       "v 0 0 0\nv 1 \\\n0 0\nv 0 1 \\\r\n 0\nf 1 \\\n 2 \\\n 3\ng late\nf 1 2 9\nf 1 2 3\\");
   ASSERT_EQ(model.objects.size(), 2U);
   EXPECT_EQ(mesh_of(model, 0).vertices.size(), 3U);
@@ -155,12 +156,12 @@ TEST(ObjReader, AppliesUnitAndUpAxis) {
   ReadOptions options;
   options.unit_mm = 1000;
   options.up_axis = UpAxis::y;
-  const model::Model model = read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options);
+  const model::Model model = read_obj_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options);
   EXPECT_EQ(mesh_of(model, 0).vertices[0], (Vec3d{1000, -3000, 2000}));
   EXPECT_EQ(model.files[0].unit, "m (given)");
   EXPECT_EQ(model.files[0].up_axis, "y");
   options.up_axis = UpAxis::x;
-  EXPECT_EQ(mesh_of(read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options), 0).vertices[0],
+  EXPECT_EQ(mesh_of(read_obj_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options), 0).vertices[0],
             (Vec3d{2000, 3000, 1000}));
 }
 
@@ -168,7 +169,7 @@ TEST(ObjReader, NamesTheUnitThatTheUserGives) {
   const auto reported = [](double unit_mm) {
     ReadOptions options;
     options.unit_mm = unit_mm;
-    return read_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options).files[0].unit;
+    return read_obj_ok("v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", options).files[0].unit;
   };
   EXPECT_EQ(reported(100), "dm (given)");
   EXPECT_EQ(reported(1e6), "km (given)");
@@ -181,7 +182,7 @@ TEST(ObjReader, TakesColoursFromTheLibraryBesideIt) {
   const std::string text = "mtllib my colours.mtl\n" + std::string(kTriangle) +
                            "o a\nusemtl steel\nf 1 2 3\nf 3 2 1\nusemtl glass\nf 1 2 3\n"
                            "o b\nusemtl unknown\nf 1 2 3\n";
-  const Result<model::Model> model = read(text, {}, folder.path() / "x.obj");
+  const Result<model::Model> model = read_obj(text, {}, folder.path() / "x.obj");
   ASSERT_TRUE(model);
   ASSERT_EQ(model->objects.size(), 2U);
   EXPECT_EQ(model->objects[0].body_count, 2U) << "opaque and transparent faces apart";
@@ -198,7 +199,7 @@ TEST(ObjReader, KeepsASolidWithATransparentFaceInOnePiece) {
   const std::string corners = "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   const std::string walls = "usemtl steel\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const auto read_it = [&](const std::string& text) {
-    Result<model::Model> model = read(corners + text, {}, folder.path() / "x.obj");
+    Result<model::Model> model = read_obj(corners + text, {}, folder.path() / "x.obj");
     EXPECT_TRUE(model);
     return model ? std::move(*model) : model::Model{};
   };
@@ -232,7 +233,7 @@ TEST(ObjReader, KeepsASolidWithATransparentFaceInOnePiece) {
 TEST(ObjReader, KeepsTheFacesOfASolidWithATransparentFace) {
   const test::TemporaryFolder folder;
   (void)folder.write("c.mtl", "newmtl steel\nnewmtl glass\nd 0.5\n");
-  const Result<model::Model> model = read(
+  const Result<model::Model> model = read_obj(
       "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
       "v 1 1 1\nusemtl steel\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
       "usemtl glass\nf 1 3 4 2\n",
@@ -249,7 +250,7 @@ TEST(ObjReader, KeepsASolidOfTwoOpaqueColoursInOnePiece) {
   const std::string text =
       "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 3 2\n"
       "usemtl blue\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-  const Result<model::Model> model = read(text, {}, folder.path() / "x.obj");
+  const Result<model::Model> model = read_obj(text, {}, folder.path() / "x.obj");
   ASSERT_TRUE(model);
   ASSERT_EQ(model->bodies.size(), 1U);
   EXPECT_EQ(mesh_of(*model, 0).triangles.size(), 4U);
@@ -258,13 +259,13 @@ TEST(ObjReader, KeepsASolidOfTwoOpaqueColoursInOnePiece) {
 
 TEST(ObjReader, ReadsNoLibraryFromElsewhere) {
   const Result<model::Model> model =
-      read("mtllib ../../etc/passwd\n" + std::string(kTriangle) + "f 1 2 3\n");
+      read_obj("mtllib ../../etc/passwd\n" + std::string(kTriangle) + "f 1 2 3\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->diagnostics.count("obj-material-library-refused"), 1U);
 }
 
 TEST(ObjReader, SkipsDamagedObjectsAndStatesWhere) {
-  const model::Model model = read_ok(
+  const model::Model model = read_obj_ok(
       std::string(kTriangle) +
       "v nan 0 0\nv 1 2\no good\nf 1 2 3\no range\nl 1 6\nf 1 2 6\n"
       "o back\nf -6 -2 -3\no word\nf 1 2 x\no zero\nf 0 1 2\no nan\nf 1 2 4\no short\nf 1 2 5\n"
@@ -293,7 +294,7 @@ TEST(ObjReader, SkipsDamagedObjectsAndStatesWhere) {
 }
 
 TEST(ObjReader, KeepsAnObjectWithoutTheFacesThatCannotBeRead) {
-  const model::Model model = read_ok(
+  const model::Model model = read_obj_ok(
       std::string(kTriangle) +
       "v nan 0 0\nv 9 9 9\no part\nf 1 2 3\nf 3 4 5\nf 1 2 x\nf 2 1 77\nf 3 2 1\nl 1 2\nl 2 4 3\n"
       "o whole\nf 1 2 3\no one\nf 1 2 3\nf 1 2 4\n");
@@ -322,11 +323,11 @@ TEST(ObjReader, KeepsAnObjectWithoutTheFacesThatCannotBeRead) {
 }
 
 TEST(ObjReader, RefusesFilesWithNothingInThem) {
-  const Result<model::Model> no_faces = read(kTriangle);
+  const Result<model::Model> no_faces = read_obj(kTriangle);
   ASSERT_FALSE(no_faces);
   EXPECT_EQ(no_faces.error().code, ErrorCode::input);
   EXPECT_EQ(no_faces.error().where, "some/model.obj");
-  const Result<model::Model> all_bad = read(std::string(kTriangle) + "f 1 2 7\n");
+  const Result<model::Model> all_bad = read_obj(std::string(kTriangle) + "f 1 2 7\n");
   ASSERT_FALSE(all_bad);
   EXPECT_EQ(all_bad.error().where, "some/model.obj:4");
 }
@@ -341,7 +342,7 @@ TEST(ObjReader, CountsBackAcrossChunks) {
     text += fmt::format("v {} 0 0\nv {} 1 0.123456\nv {} 0 1\nf -3 -2 -1\n", i, i, i);
   }
   ASSERT_GT(text.size(), 2U << 20U);
-  const model::Model model = read_ok(text);
+  const model::Model model = read_obj_ok(text);
   ASSERT_EQ(model.objects.size(), 2U);
   constexpr std::size_t kHalf = count / 2;
   for (std::size_t object = 0; object < 2; ++object) {
@@ -363,7 +364,7 @@ TEST(ObjReader, FindsVerticesOfObjectsThatShareThemWidely) {
   std::string text;
   for (int i = 0; i < 5000; ++i) text += fmt::format("v {} {} 0\n", i, i % 7);
   text += "o sparse\nf 1 2500 5000\nf 5000 2500 1\no dense\nf 1 2 3\n";
-  const model::Model model = read_ok(text);
+  const model::Model model = read_obj_ok(text);
   ASSERT_EQ(model.objects.size(), 2U);
   EXPECT_EQ(mesh_of(model, 0).vertices,
             (std::vector<Vec3d>{{0, 0, 0}, {2499, 0, 0}, {4999, 1, 0}}));
@@ -372,7 +373,7 @@ TEST(ObjReader, FindsVerticesOfObjectsThatShareThemWidely) {
 
 TEST(ObjReader, StatesThePrecisionOfItsText) {
   EXPECT_DOUBLE_EQ(
-      read_ok("v 12345.678 0 0\nv 1.000 0 0\nv 0 1.000 0\nf 1 2 3\n").files[0].precision_mm,
+      read_obj_ok("v 12345.678 0 0\nv 1.000 0 0\nv 0 1.000 0\nf 1 2 3\n").files[0].precision_mm,
       0.0005);
 }
 

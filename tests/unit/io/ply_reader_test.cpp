@@ -15,7 +15,7 @@ namespace {
 using geometry::TriangleMesh;
 using geometry::Vec3d;
 
-Result<model::Model> read(const std::string& bytes, const ReadOptions& options = {}) {
+Result<model::Model> read_ply(const std::string& bytes, const ReadOptions& options = {}) {
   return test::read_bytes(*make_ply_reader(), bytes, "some/part.ply", options);
 }
 
@@ -30,7 +30,7 @@ const std::string kFaces = "element face 1\nproperty list uchar int vertex_index
 TEST(PlyReader, AllEncodingsStateTheSame) {
   std::vector<model::Model> models;
   for (const test::Seed& seed : test::ply_seeds()) {
-    Result<model::Model> model = read(seed.bytes);
+    Result<model::Model> model = read_ply(seed.bytes);
     ASSERT_TRUE(model) << seed.name << ": " << model.error().text();
     models.push_back(std::move(*model));
   }
@@ -58,7 +58,7 @@ TEST(PlyReader, UnitAndAxisAreObeyedAndPrecisionIsThatOfFloats) {
   ReadOptions options;
   options.unit_mm = 1000;
   options.up_axis = UpAxis::y;
-  const Result<model::Model> model = read(bytes, options);
+  const Result<model::Model> model = read_ply(bytes, options);
   ASSERT_TRUE(model);
   EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).vertices[2], (Vec3d{0, 0, 1000}));
   EXPECT_GT(model->bodies[0].precision_um, 0);
@@ -67,7 +67,7 @@ TEST(PlyReader, UnitAndAxisAreObeyedAndPrecisionIsThatOfFloats) {
 
 TEST(PlyReader, BadFacesAreLeftOutAndCounted) {
   const std::string faces = "element face 4\nproperty list uchar int vertex_index\n";
-  const Result<model::Model> model = read(
+  const Result<model::Model> model = read_ply(
       text(kVertices + faces, "0 0 0\n1 0 0\n0 1 0\nnan 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n2 0 1\n"));
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).triangles.size(), 1U);
@@ -82,21 +82,21 @@ TEST(PlyReader, OtherElementsArePassedOver) {
       "property uchar red\n" + kFaces +
       "element tristrips 1\nproperty list int int vertex_indices\n";
   const Result<model::Model> model =
-      read(text(more, "9 2 1 1\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n3 0 1 2\n3 0 1 -1\n"));
+      read_ply(text(more, "9 2 1 1\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n3 0 1 2\n3 0 1 -1\n"));
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_EQ(model->diagnostics.count("ply-element"), 1U);
 }
 
 /// Blender wrote so.
 TEST(PlyReader, CommentsThatAreNotCalledSo) {
-  EXPECT_TRUE(read(text("Created by a program\n" + kVertices + kFaces,
-                        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n")));
-  EXPECT_FALSE(read(text(kVertices + "proprty float w\n", "0")));
+  EXPECT_TRUE(read_ply(text("Created by a program\n" + kVertices + kFaces,
+                            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n")));
+  EXPECT_FALSE(read_ply(text(kVertices + "proprty float w\n", "0")));
 }
 
 TEST(PlyReader, WhatIsWrongIsStatedAndWhere) {
   const auto refused = [](const std::string& bytes, const std::string& words) {
-    const Result<model::Model> model = read(bytes);
+    const Result<model::Model> model = read_ply(bytes);
     ASSERT_FALSE(model) << words;
     EXPECT_NE(model.error().text().find(words), std::string::npos) << model.error().text();
   };
@@ -114,7 +114,7 @@ TEST(PlyReader, WhatIsWrongIsStatedAndWhere) {
 }
 
 TEST(PlyReader, ListsHaveWholeNumbersOfItems) {
-  EXPECT_FALSE(read(text(kVertices + kFaces, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n2.5 0 1 2\n")));
+  EXPECT_FALSE(read_ply(text(kVertices + kFaces, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n2.5 0 1 2\n")));
 }
 
 /// Each would take a second of a file that has none of their bytes.
@@ -122,7 +122,7 @@ TEST(PlyReader, ElementsWithoutPropertiesAreNotCounted) {
   std::string none;
   for (int i = 0; i < 1000; ++i) none += "element edge 4294967295\nelement other 4294967295\n";
   const Result<model::Model> model =
-      read(text(kVertices + kFaces + none, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n"));
+      read_ply(text(kVertices + kFaces + none, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n"));
   ASSERT_TRUE(model) << model.error().text();
   EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).triangles.size(), 1U);
 }
@@ -132,14 +132,14 @@ TEST(PlyReader, HostileCountsAreRefused) {
   for (const char* const count : {"4294967295", "18446744073709551615", "1000000000000"}) {
     const std::string head = std::string("element vertex ") + count +
                              "\nproperty float x\nproperty float y\nproperty float z\n";
-    EXPECT_FALSE(read(text(head, "0 0 0\n")));
+    EXPECT_FALSE(read_ply(text(head, "0 0 0\n")));
     EXPECT_FALSE(
-        read("ply\nformat binary_little_endian 1.0\n" + head + "end_header\n123456789012"));
-    EXPECT_FALSE(
-        read(std::string("ply\nformat ascii 1.0\nelement nothing ") + count + "\nend_header\n"));
+        read_ply("ply\nformat binary_little_endian 1.0\n" + head + "end_header\n123456789012"));
+    EXPECT_FALSE(read_ply(std::string("ply\nformat ascii 1.0\nelement nothing ") + count +
+                          "\nend_header\n"));
   }
-  EXPECT_FALSE(read(text(kVertices + "element face 1\nproperty list uint int vertex_index\n",
-                         "0 0 0 1 0 0 0 1 0 0 0 1 4294967295 0 1 2")));
+  EXPECT_FALSE(read_ply(text(kVertices + "element face 1\nproperty list uint int vertex_index\n",
+                             "0 0 0 1 0 0 0 1 0 0 0 1 4294967295 0 1 2")));
 }
 
 }  // namespace

@@ -15,15 +15,15 @@ namespace {
 
 constexpr const char* kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-Result<model::Model> read(const std::vector<std::filesystem::path>& paths,
-                          const ReadOptions& options = {}) {
+Result<model::Model> read_files(const std::vector<std::filesystem::path>& paths,
+                                const ReadOptions& options = {}) {
   return read_models(paths, options, {});
 }
 
 TEST(Registry, KnowsAFileByItsContent) {
   const test::TemporaryFolder folder;
   const auto format = [&](const char* name, std::string_view content) {
-    const Result<model::Model> model = read({folder.write(name, content)});
+    const Result<model::Model> model = read_files({folder.write(name, content)});
     return model ? model->files.at(0).format : model.error().text();
   };
   EXPECT_EQ(format("a.stl", kObj), "OBJ");
@@ -39,7 +39,7 @@ TEST(Registry, ReadsSeveralFilesInAnyOrderAlike) {
   const std::filesystem::path a = folder.write("a.obj", kObj);
   const std::filesystem::path b =
       folder.write("b.glb", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
-  const Result<model::Model> one = read({a, b}), other = read({b, a});
+  const Result<model::Model> one = read_files({a, b}), other = read_files({b, a});
   ASSERT_TRUE(one);
   ASSERT_TRUE(other);
   ASSERT_EQ(one->objects.size(), 2U);
@@ -58,15 +58,15 @@ TEST(Registry, NamesTheFileAndTheMend) {
     EXPECT_EQ(result.error().where, where);
     EXPECT_FALSE(result.error().mend.empty());
   };
-  check(read({folder.path() / "missing.obj"}), (folder.path() / "missing.obj").string());
-  check(read({folder.path()}), folder.path().string());
-  check(read({"/dev/null"}), "/dev/null");
+  check(read_files({folder.path() / "missing.obj"}), (folder.path() / "missing.obj").string());
+  check(read_files({folder.path()}), folder.path().string());
+  check(read_files({"/dev/null"}), "/dev/null");
   const std::filesystem::path empty = folder.write("empty.glb", "");
-  check(read({empty}), empty.string());
+  check(read_files({empty}), empty.string());
   const std::filesystem::path text = folder.write("letter.txt", "Dear reader,\nno model.\n");
-  check(read({text}), text.string());
+  check(read_files({text}), text.string());
   const std::filesystem::path good = folder.write("good.obj", kObj);
-  check(read({good, text}), text.string());
+  check(read_files({good, text}), text.string());
 }
 
 TEST(Registry, StatesHowAModelOfAnotherFormatIsConverted) {
@@ -91,12 +91,12 @@ TEST(Registry, StatesHowAModelOfAnotherFormatIsConverted) {
 }
 
 TEST(Registry, RefusesImpossibleQuestions) {
-  EXPECT_EQ(read({}).error().code, ErrorCode::usage);
+  EXPECT_EQ(read_files({}).error().code, ErrorCode::usage);
   const test::TemporaryFolder folder;
   ReadOptions options;
   for (const double unit : {0.0, -1.0, 1e300}) {
     options.unit_mm = unit;
-    EXPECT_EQ(read({folder.write("a.obj", kObj)}, options).error().code, ErrorCode::usage);
+    EXPECT_EQ(read_files({folder.write("a.obj", kObj)}, options).error().code, ErrorCode::usage);
   }
 }
 

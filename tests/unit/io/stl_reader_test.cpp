@@ -14,7 +14,7 @@ namespace {
 using geometry::TriangleMesh;
 using geometry::Vec3d;
 
-Result<model::Model> read(std::string_view bytes, const ReadOptions& options = {}) {
+Result<model::Model> read_stl(std::string_view bytes, const ReadOptions& options = {}) {
   return test::read_bytes(*make_stl_reader(), bytes, "some/part.stl", options);
 }
 
@@ -44,7 +44,7 @@ constexpr std::string_view kText =
 TEST(StlReader, ReadsBinaryEvenWhenItBeginsLikeText) {
   const std::string bytes = binary("solid exported by somebody", {kFacet, kFacet});
   EXPECT_EQ(sureness(bytes), 100);
-  const Result<model::Model> model = read(bytes);
+  const Result<model::Model> model = read_stl(bytes);
   ASSERT_TRUE(model) << model.error().text();
   ASSERT_EQ(model->objects.size(), 1U);
   EXPECT_EQ(model->objects[0].name, "part");
@@ -62,7 +62,7 @@ TEST(StlReader, ReadsTextWithSeveralSolids) {
       "SOLID\r\n\tFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\nVERTEX 0 1 "
       "0\r\n"
       "ENDLOOP\r\nENDFACET\r\nENDSOLID\r\nsolid empty\nendsolid\n";
-  const Result<model::Model> model = read(text);
+  const Result<model::Model> model = read_stl(text);
   ASSERT_TRUE(model) << model.error().text();
   ASSERT_EQ(model->objects.size(), 2U);
   EXPECT_EQ(model->objects[0].name, "first one");
@@ -76,7 +76,7 @@ TEST(StlReader, AppliesUnitAndUpAxis) {
   options.unit_mm = 1000;
   options.up_axis = UpAxis::y;
   for (const std::string& bytes : {binary("x", {kFacet}), std::string(kText)}) {
-    const Result<model::Model> model = read(bytes, options);
+    const Result<model::Model> model = read_stl(bytes, options);
     ASSERT_TRUE(model);
     EXPECT_EQ(model->files[0].unit, "m (given)");
     const Vec3d& last = std::get<TriangleMesh>(model->shapes[0]).vertices[2];
@@ -100,10 +100,10 @@ TEST(StlReader, SkipsDamagedSolidsAndStatesWhere) {
       {good.substr(0, good.find("  endloop")), "some/part.stl:7"},
   };
   for (const auto& [text, place] : cases) {
-    const Result<model::Model> alone = read(text);
+    const Result<model::Model> alone = read_stl(text);
     ASSERT_FALSE(alone) << text;
     EXPECT_EQ(alone.error().where, place) << text;
-    const Result<model::Model> both = read(text + good);
+    const Result<model::Model> both = read_stl(text + good);
     ASSERT_TRUE(both) << text;
     ASSERT_EQ(both->objects.size(), 2U) << "the damaged one is listed, without bodies";
     EXPECT_TRUE(both->objects[0].incomplete && both->objects[0].body_count == 0);
@@ -123,7 +123,7 @@ TEST(StlReader, KeepsASolidWithoutTheFacetsThatCannotBeRead) {
       facet("vertex 0 0 0\nvertex 0 8 0\n") + facet(good + "vertex 9 9 9\n") +
       facet("vertex nan 0 0\nvertex nan 0 0\nvertex nan 0 0\n") +
       facet("vertex 0 0 0\nvertx 1 0 0\nvertex 0 1 0\n") + facet(good) + "endsolid s\n";
-  const Result<model::Model> model = read(text);
+  const Result<model::Model> model = read_stl(text);
   ASSERT_TRUE(model) << model.error().text();
   ASSERT_EQ(model->objects.size(), 1U);
   EXPECT_TRUE(model->objects[0].incomplete);
@@ -145,7 +145,7 @@ TEST(StlReader, KeepsABinaryFileWithoutTheFacetsThatCannotBeRead) {
   no_number[11] = NAN;
   Facet last = kFacet;
   last[3] = 0.25F;
-  const Result<model::Model> model = read(binary("x", {kFacet, infinite, no_number, last}));
+  const Result<model::Model> model = read_stl(binary("x", {kFacet, infinite, no_number, last}));
   ASSERT_TRUE(model) << model.error().text();
   const auto& mesh = std::get<TriangleMesh>(model->shapes[0]);
   EXPECT_EQ(mesh.triangles, (std::vector<geometry::Triangle>{{0, 1, 2}, {3, 4, 5}}));
@@ -161,34 +161,34 @@ TEST(StlReader, KeepsABinaryFileWithoutTheFacetsThatCannotBeRead) {
 
 TEST(StlReader, RefusesDamagedBinaryFiles) {
   std::string bytes = binary("x", {kFacet, kFacet, kFacet});
-  const Result<model::Model> truncated = read(bytes.substr(0, bytes.size() - 60));
+  const Result<model::Model> truncated = read_stl(bytes.substr(0, bytes.size() - 60));
   ASSERT_FALSE(truncated);
   EXPECT_EQ(truncated.error().where, "some/part.stl, byte 174");
   EXPECT_NE(truncated.error().message.find("1 of the 3 facets"), std::string::npos);
 
   Facet infinite = kFacet;
   infinite[7] = INFINITY;
-  const Result<model::Model> not_finite = read(binary("x", {infinite, infinite}));
+  const Result<model::Model> not_finite = read_stl(binary("x", {infinite, infinite}));
   ASSERT_FALSE(not_finite);
   EXPECT_EQ(not_finite.error().where, "some/part.stl, byte 108");
 
   const std::uint32_t huge = 0xffffffffU;
   std::memcpy(bytes.data() + 80, &huge, 4);
-  EXPECT_FALSE(read(bytes));
-  EXPECT_FALSE(read(binary("x", {})));
-  EXPECT_FALSE(read("solid x\nendsolid x\n"));
-  EXPECT_FALSE(read("too short"));
+  EXPECT_FALSE(read_stl(bytes));
+  EXPECT_FALSE(read_stl(binary("x", {})));
+  EXPECT_FALSE(read_stl("solid x\nendsolid x\n"));
+  EXPECT_FALSE(read_stl("too short"));
 }
 
 TEST(StlReader, IgnoresBytesBehindTheLastFacetWithAWarning) {
-  const Result<model::Model> model = read(binary("x", {kFacet}) + "trailing");
+  const Result<model::Model> model = read_stl(binary("x", {kFacet}) + "trailing");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->diagnostics.count("stl-trailing-bytes"), 1U);
   EXPECT_FALSE(model->objects[0].incomplete);
 }
 
 TEST(StlReader, ReportsASecondSolidThatItDoesNotRead) {
-  const Result<model::Model> model = read(binary("x", {kFacet}) + binary("y", {kFacet}));
+  const Result<model::Model> model = read_stl(binary("x", {kFacet}) + binary("y", {kFacet}));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->diagnostics.skipped(), 1U);
   EXPECT_TRUE(model->objects[0].incomplete);
@@ -196,9 +196,9 @@ TEST(StlReader, ReportsASecondSolidThatItDoesNotRead) {
 
 TEST(StlReader, ReadsTextBehindAByteOrderMark) {
   const std::string text = std::string("\xEF\xBB\xBF") + std::string(kText);
-  const Result<model::Model> model = read(text);
+  const Result<model::Model> model = read_stl(text);
   ASSERT_TRUE(model) << model.error().text();
-  EXPECT_EQ(model->objects.size(), read(kText)->objects.size());
+  EXPECT_EQ(model->objects.size(), read_stl(kText)->objects.size());
   EXPECT_GT(sureness(text, "x.txt"), 80);
 }
 

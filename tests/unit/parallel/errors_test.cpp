@@ -21,8 +21,6 @@ namespace {
 
 using test::everywhere;
 
-constexpr std::size_t kItems = test::kEverywhereItems;
-
 Error failure(std::size_t i) { return {ErrorCode::input, "item " + std::to_string(i), {}, {}}; }
 
 TEST(Errors, the_lowest_failing_item_is_reported_and_all_below_it_ran) {
@@ -33,16 +31,18 @@ TEST(Errors, the_lowest_failing_item_is_reported_and_all_below_it_ran) {
   };
   const Case cases[] = {
       {"first", 0, [](std::size_t i) { return i == 0; }},
-      {"last", kItems - 1, [](std::size_t i) { return i == kItems - 1; }},
+      {"last", test::kEverywhereItems - 1,
+       [](std::size_t i) { return i == test::kEverywhereItems - 1; }},
       {"every 97th", 96, [](std::size_t i) { return i % 97 == 96; }},
       {"all", 0, [](std::size_t) { return true; }},
-      {"second half", kItems / 2, [](std::size_t i) { return i >= kItems / 2; }},
+      {"second half", test::kEverywhereItems / 2,
+       [](std::size_t i) { return i >= test::kEverywhereItems / 2; }},
   };
   for (const Case& one : cases)
     for (const std::size_t grain : {1U, 16U, 2000U})
       everywhere(grain, [&](const Context& context, const Region& region) {
         SCOPED_TRACE(one.name);
-        std::vector<std::uint8_t> ran(kItems, 0);
+        std::vector<std::uint8_t> ran(test::kEverywhereItems, 0);
         const Status status = for_each(context, region, [&](std::size_t i) -> Status {
           ran[i] = 1;
           if (one.fails(i)) return failure(i);
@@ -157,7 +157,7 @@ TEST(Cancel, from_the_body_stops_the_rest) {
     EXPECT_EQ(status.error().code, ErrorCode::cancelled);
     // One item per worker may have passed its check just before.
     EXPECT_LE(after, context.team != nullptr ? context.team->size() : 0);
-    EXPECT_LT(ran, kItems);
+    EXPECT_LT(ran, test::kEverywhereItems);
   });
 }
 

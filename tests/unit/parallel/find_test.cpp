@@ -16,13 +16,12 @@ namespace {
 
 using test::everywhere;
 
-constexpr std::size_t kItems = test::kEverywhereItems;
-
 TEST(Find, the_lowest_is_found_and_all_below_it_are_requested) {
-  for (const std::size_t step : {std::size_t{1}, std::size_t{97}, std::size_t{500}, kItems})
+  for (const std::size_t step :
+       {std::size_t{1}, std::size_t{97}, std::size_t{500}, test::kEverywhereItems})
     for (const std::size_t grain : {1U, 16U, 2000U})
       everywhere(grain, [&](const Context& context, const Region& region) {
-        std::vector<std::uint8_t> calls(kItems, 0);
+        std::vector<std::uint8_t> calls(test::kEverywhereItems, 0);
         const auto found = find_first(context, region, [&](std::size_t i) {
           ++calls[i];
           return i % step == step - 1;
@@ -30,7 +29,7 @@ TEST(Find, the_lowest_is_found_and_all_below_it_are_requested) {
         ASSERT_TRUE(found);
         ASSERT_TRUE(found->has_value());
         EXPECT_EQ(**found, step - 1);
-        for (std::size_t i = 0; i < kItems; ++i)
+        for (std::size_t i = 0; i < test::kEverywhereItems; ++i)
           ASSERT_TRUE(i < step ? calls[i] == 1 : calls[i] <= 1) << i;
       });
 }
@@ -131,19 +130,21 @@ TEST(AllOf, is_true_of_none_and_of_all) {
   EXPECT_TRUE(*all_of({}, {.name = "none"}, [](std::size_t) { return false; }));
   everywhere(16, [](const Context& context, const Region& region) {
     EXPECT_TRUE(*all_of(context, region, [](std::size_t) { return true; }));
-    for (const std::size_t odd : {std::size_t{0}, kItems / 2, kItems - 1})
+    for (const std::size_t odd :
+         {std::size_t{0}, test::kEverywhereItems / 2, test::kEverywhereItems - 1})
       EXPECT_FALSE(*all_of(context, region, [&](std::size_t i) { return i != odd; }));
   });
 }
 
 TEST(TransformUntil, results_end_with_the_last_that_is_wanted) {
-  for (const std::size_t last : {std::size_t{0}, std::size_t{333}, kItems - 1, kItems + 5})
+  for (const std::size_t last :
+       {std::size_t{0}, std::size_t{333}, test::kEverywhereItems - 1, test::kEverywhereItems + 5})
     everywhere(8, [&](const Context& context, const Region& region) {
       const auto squares = transform_until(
           context, region, [](std::size_t i) { return i * i; },
           [&](std::size_t square) { return square >= last * last; });
       ASSERT_TRUE(squares);
-      ASSERT_EQ(squares->size(), std::min(kItems, last + 1));
+      ASSERT_EQ(squares->size(), std::min(test::kEverywhereItems, last + 1));
       for (std::size_t i = 0; i < squares->size(); ++i) ASSERT_EQ((*squares)[i], i * i);
     });
 }

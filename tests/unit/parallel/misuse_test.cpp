@@ -45,12 +45,13 @@
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
-constexpr std::array kWorkers = {1U, 2U, 3U, 8U, 64U};
+constexpr std::size_t kLargest = std::numeric_limits<std::size_t>::max();
+constexpr std::array kTeamSizes = {1U, 2U, 3U, 8U, 64U};
 
 TEST(Misuse, a_chunk_of_any_size_runs_every_item_once) {
-  for (const unsigned workers : kWorkers)
-    for (const std::size_t chunk : {kMax, kMax / 2 + 1, kMax / 4 + 1, kMax - 1, std::size_t{0}}) {
+  for (const unsigned workers : kTeamSizes)
+    for (const std::size_t chunk :
+         {kLargest, kLargest / 2 + 1, kLargest / 4 + 1, kLargest - 1, std::size_t{0}}) {
       Team team(workers);
       std::vector<std::atomic<int>> runs(100);
       for (int round = 0; round < 20; ++round)
@@ -86,7 +87,7 @@ TEST(Misuse, an_order_that_is_no_permutation_is_an_error) {
 
 TEST(Misuse, blocks_at_the_end_of_all_numbers_are_run) {
   // Two blocks of which the second would end beyond what a number holds.
-  constexpr std::size_t kGrain = kMax / 2 + 2;
+  constexpr std::size_t kGrain = kLargest / 2 + 2;
   const std::vector<std::uint32_t> second_first = {1, 0};
   std::optional<std::size_t> observed;
   const Status status =
@@ -101,29 +102,31 @@ TEST(Misuse, blocks_at_the_end_of_all_numbers_are_run) {
 
 TEST(Misuse, more_than_can_be_counted_is_an_error) {
   const auto one = [](std::size_t /*i*/) { return std::size_t{1}; };
-  const auto half = [](std::size_t /*i*/) { return kMax / 2 + 1; };
+  const auto half = [](std::size_t /*i*/) { return kLargest / 2 + 1; };
   const auto fill = [](std::size_t /*i*/, std::span<int> /*out*/) {};
   const auto none = [](std::size_t /*row*/, std::size_t /*column*/) {};
-  EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = kMax}, one, fill).error().code,
+  EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = kLargest}, one, fill).error().code,
             ErrorCode::memory);
   EXPECT_EQ(count_fill<int>({}, {.name = "h", .n = 2}, half, fill).error().message,
             "more elements than can be counted");
-  EXPECT_EQ(for_each_nested({}, {.name = "h"}, kMax, one, none).error().code, ErrorCode::memory);
+  EXPECT_EQ(for_each_nested({}, {.name = "h"}, kLargest, one, none).error().code,
+            ErrorCode::memory);
   EXPECT_EQ(for_each_nested({}, {.name = "h"}, 2, half, none).error().message,
             "more elements than can be counted");
-  EXPECT_EQ(collect<int>({}, {.name = "h", .n = kMax},
+  EXPECT_EQ(collect<int>({}, {.name = "h", .n = kLargest},
                          [](std::size_t /*i*/, std::vector<int>& /*out*/) {})
                 .error()
                 .code,
             ErrorCode::memory);
-  EXPECT_EQ(transform({}, {.name = "h", .n = kMax}, [](std::size_t i) { return i; }).error().code,
-            ErrorCode::memory);
+  EXPECT_EQ(
+      transform({}, {.name = "h", .n = kLargest}, [](std::size_t i) { return i; }).error().code,
+      ErrorCode::memory);
 }
 
 [[noreturn]] void complain() { throw std::runtime_error("my own words"); }
 
 TEST(Misuse, exceptions_of_everything_that_is_called_are_errors_with_their_place) {
-  for (const unsigned workers : kWorkers) {
+  for (const unsigned workers : kTeamSizes) {
     Team team(workers);
     const Context context{.team = &team};
     const auto at = [](const auto& result) {
@@ -177,7 +180,7 @@ TEST(Misuse, exceptions_of_everything_that_is_called_are_errors_with_their_place
 
 /// The items of distinct() go through lots by their hashes, which must not show.
 TEST(Misuse, the_lowest_that_cannot_be_compared_is_reported_whatever_the_hash) {
-  for (const unsigned workers : kWorkers) {
+  for (const unsigned workers : kTeamSizes) {
     Team team(workers);
     for (const std::uint64_t salt : {0U, 1U, 2U, 3U}) {
       const auto kinds = distinct(
@@ -324,7 +327,7 @@ TEST(Misuse, a_heavy_item_fails_as_any_other_does) {
     EXPECT_FALSE(status);
     return status.error().where;
   };
-  for (const unsigned workers : kWorkers) {
+  for (const unsigned workers : kTeamSizes) {
     Team team(workers);
     for (Executor* const who : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&team)})
       for (const bool throws : {false, true})
@@ -364,7 +367,7 @@ class Stopper {
 TEST(Misuse, what_passes_a_pipeline_may_stop_it_as_it_goes) {
   // Neither items nor results can be assigned; both end with the pipeline's lock open.
   for (const bool result_stops : {false, true})
-    for (const unsigned workers : kWorkers) {
+    for (const unsigned workers : kTeamSizes) {
       Team team(workers);
       std::stop_source source;
       std::size_t fetched = 0;

@@ -32,15 +32,13 @@ using test::results;
 using test::Results;
 using test::value;
 
-constexpr std::size_t kItems = test::kResultItems;
-
 TEST(Patterns, same_bytes_for_any_team_schedule_chunk_and_order) {
   constexpr unsigned kSeed = 20250117;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   for (const std::size_t grain : {1U, 7U, 100U, 5000U}) {
-    Region region{.name = "test", .n = kItems, .grain = grain};
+    Region region{.name = "test", .n = test::kResultItems, .grain = grain};
     const Results expected = results({}, region, 0);
-    ASSERT_EQ(expected.item_runs, kItems);
+    ASSERT_EQ(expected.item_runs, test::kResultItems);
     std::vector<std::uint32_t> shuffled =
         longest_first(region.blocks(), [](std::size_t i) { return value(i); });
     std::shuffle(shuffled.begin(), shuffled.end(), std::minstd_rand(kSeed));
@@ -63,7 +61,7 @@ TEST(Patterns, same_bytes_for_any_team_schedule_chunk_and_order) {
 
 TEST(Patterns, that_order_their_items_themselves_give_the_same_bytes_too) {
   for (const std::size_t grain : {1U, 7U, 5000U}) {
-    Region region{.name = "test", .n = kItems, .grain = grain};
+    Region region{.name = "test", .n = test::kResultItems, .grain = grain};
     const test::OwnResults expected = test::own_results({}, region, 0);
     for (const std::size_t size :
          {expected.nested.size(), expected.by_weight.size(), expected.kinds.size(),
@@ -84,11 +82,12 @@ TEST(Patterns, that_order_their_items_themselves_give_the_same_bytes_too) {
 }
 
 TEST(Patterns, sum_is_that_of_blocks_folded_in_order) {
-  const Region region{.name = "sum", .n = kItems, .grain = 64};
+  const Region region{.name = "sum", .n = test::kResultItems, .grain = 64};
   double expected = 0;
-  for (std::size_t first = 0; first < kItems; first += 64) {
+  for (std::size_t first = 0; first < test::kResultItems; first += 64) {
     double partial = 0;
-    for (std::size_t i = first; i < std::min(kItems, first + 64); ++i) partial += value(i);
+    for (std::size_t i = first; i < std::min(test::kResultItems, first + 64); ++i)
+      partial += value(i);
     expected += partial;
   }
   const auto got = reduce(
@@ -222,11 +221,11 @@ TEST(Heavy, every_item_runs_once_and_heavy_ones_have_the_team) {
     Team team(threads);
     const Context context{.team = &team};
     for (const std::size_t grain : {1U, 7U}) {
-      std::vector<int> runs(kItems, 0);
-      std::vector<std::uint64_t> sums(kItems, 0);
+      std::vector<int> runs(test::kResultItems, 0);
+      std::vector<std::uint64_t> sums(test::kResultItems, 0);
       std::atomic<unsigned> with_team{0};
       const Status status = for_each_by_weight(
-          context, {.name = "outer", .n = kItems, .grain = grain}, 1000,
+          context, {.name = "outer", .n = test::kResultItems, .grain = grain}, 1000,
           [](std::size_t i) { return i == kHeavy ? 1e6 : 1.0; },
           [&](std::size_t i) -> Status {
             ++runs[i];
@@ -240,7 +239,7 @@ TEST(Heavy, every_item_runs_once_and_heavy_ones_have_the_team) {
             return {};
           });
       ASSERT_TRUE(status);
-      for (std::size_t i = 0; i < kItems; ++i) {
+      for (std::size_t i = 0; i < test::kResultItems; ++i) {
         EXPECT_EQ(runs[i], 1);
         EXPECT_EQ(sums[i], i == 0 ? 0 : i * (i - 1) / 2);
       }

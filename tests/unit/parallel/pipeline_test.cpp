@@ -24,7 +24,7 @@
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kItems = 500;
+constexpr std::size_t kPipedItems = 500;
 
 /// The numbers up to n.
 auto counted(std::size_t n) {
@@ -55,15 +55,15 @@ TEST(Pipeline, hands_on_all_results_in_the_order_of_the_source) {
   everywhere([](const Context& context, const Flow& flow) {
     std::vector<std::size_t> got;  // plain: two sinks at a time are a TSan report
     const Status status = pipeline(
-        context, flow, counted(kItems),
+        context, flow, counted(kPipedItems),
         [](std::size_t i) {
           if (i % 7 == 3) std::this_thread::yield();
           return std::to_string(i * i);
         },
         [&](std::string&& text) { got.push_back(std::stoull(text)); });
     ASSERT_TRUE(status);
-    ASSERT_EQ(got.size(), kItems);
-    for (std::size_t i = 0; i < kItems; ++i) ASSERT_EQ(got[i], i * i);
+    ASSERT_EQ(got.size(), kPipedItems);
+    for (std::size_t i = 0; i < kPipedItems; ++i) ASSERT_EQ(got[i], i * i);
   });
 }
 
@@ -72,7 +72,7 @@ TEST(Pipeline, holds_no_more_items_than_it_may) {
     const std::size_t workers = context.team == nullptr ? 1 : context.team->size();
     const std::size_t most = flow.in_flight == 0 ? 4 * workers : flow.in_flight;
     std::atomic<std::size_t> held{0}, highest{0};
-    auto source = counted(kItems);
+    auto source = counted(kPipedItems);
     const Status status = pipeline(
         context, flow,
         [&] {
@@ -114,7 +114,7 @@ TEST(Pipeline, items_and_results_may_be_moved_only) {
 
 /// Where items fail, by their numbers; a failing source ends what it gives.
 struct Faults {
-  std::size_t source = kItems, work = kItems, thrown = kItems, sink = kItems;
+  std::size_t source = kPipedItems, work = kPipedItems, thrown = kPipedItems, sink = kPipedItems;
 };
 
 TEST(Pipeline, reports_the_lowest_failing_item_and_hands_on_all_before_it) {
@@ -124,14 +124,14 @@ TEST(Pipeline, reports_the_lowest_failing_item_and_hands_on_all_before_it) {
                         {.source = 300, .work = 211, .thrown = 250, .sink = 210},
                         {.source = 300, .work = 211, .sink = 212},
                         {.source = 40, .thrown = 39},
-                        {.thrown = kItems - 1},
-                        {.sink = kItems - 1}};
+                        {.thrown = kPipedItems - 1},
+                        {.sink = kPipedItems - 1}};
   for (const Faults& faults : all)
     everywhere([&](const Context& context, const Flow& flow) {
       const auto failed = [](std::size_t i) {
         return Error{ErrorCode::input, std::to_string(i), {}, {}};
       };
-      auto numbers = counted(kItems);
+      auto numbers = counted(kPipedItems);
       std::size_t sunk = 0;
       const Status status = pipeline(
           context, flow,

@@ -17,18 +17,21 @@
 namespace strake::parallel {
 namespace {
 
-constexpr std::size_t kItems = test::kResultItems;
-
 TEST(ShortRegion, results_are_those_of_one_block) {
   Team team(3);
-  const auto one_block = test::results({}, {.name = "one", .n = kItems, .grain = kItems}, 0);
+  const auto one_block =
+      test::results({}, {.name = "one", .n = test::kResultItems, .grain = test::kResultItems}, 0);
   const auto few = test::results(
-      {.team = &team}, {.name = "few", .n = kItems, .grain = 16, .alone_below = kItems + 1}, 0);
+      {.team = &team},
+      {.name = "few", .n = test::kResultItems, .grain = 16, .alone_below = test::kResultItems + 1},
+      0);
   EXPECT_EQ(few, one_block);
   // From as many on it is a region as any: with its grain.
   const auto enough = test::results(
-      {.team = &team}, {.name = "enough", .n = kItems, .grain = 16, .alone_below = kItems}, 0);
-  EXPECT_EQ(enough, test::results({}, {.name = "any", .n = kItems, .grain = 16}, 0));
+      {.team = &team},
+      {.name = "enough", .n = test::kResultItems, .grain = 16, .alone_below = test::kResultItems},
+      0);
+  EXPECT_EQ(enough, test::results({}, {.name = "any", .n = test::kResultItems, .grain = 16}, 0));
 }
 
 TEST(ShortRegion, runs_on_the_caller_and_is_not_reported) {

@@ -45,7 +45,7 @@ Result<hlr::Drawing> read_back(const std::vector<std::byte>& bytes,
 }
 
 /// Returns a drawing in parts: its head, then the lines of each range of objects.
-std::vector<std::vector<std::byte>> parts_of(const hlr::Drawing& drawing) {
+std::vector<std::vector<std::byte>> coded_parts_of(const hlr::Drawing& drawing) {
   BlobWriter head;
   write_head(head, drawing);
   std::vector<std::vector<std::byte>> blobs{head.finish().value()};
@@ -156,13 +156,13 @@ TEST(DrawingCodec, AllOfADrawingComesBack) {
         ASSERT_TRUE(equal);
         EXPECT_TRUE(*equal);
       }
-      const std::vector<std::vector<std::byte>> parts = parts_of(drawing);
+      const std::vector<std::vector<std::byte>> parts = coded_parts_of(drawing);
       EXPECT_EQ(parts.size(), model.objects.size() > 256 ? 4U : 2U);
       for (const parallel::Context& context : {parallel::Context{}, teamed}) {
         const auto again = read_parts_back(parts, context);
         ASSERT_TRUE(again) << again.error().text();
         EXPECT_TRUE(bytes_of(*again) == bytes);
-        EXPECT_TRUE(parts_of(*again) == parts);
+        EXPECT_TRUE(coded_parts_of(*again) == parts);
       }
     }
 }
@@ -183,11 +183,11 @@ TEST(DrawingCodec, APartIsOfItsObjectsAlone) {
   const std::uint32_t curve = edge->curve;
   other.curves.all.insert(other.curves.all.begin() + curve, other.curves.all[curve]);
   for (auto at = edge + 1; at != other.curves.edges.end(); ++at) ++at->curve;
-  const auto parts = parts_of(drawing), others = parts_of(other);
+  const auto parts = coded_parts_of(drawing), others = coded_parts_of(other);
   ASSERT_EQ(parts.size(), 4U);
   const auto again = read_parts_back(parts);
   ASSERT_TRUE(again) << again.error().text();
-  EXPECT_TRUE(parts_of(*again) == parts);
+  EXPECT_TRUE(coded_parts_of(*again) == parts);
   EXPECT_TRUE(bytes_of(*again) == bytes_of(drawing));
   EXPECT_TRUE(parts[1] == others[1]);
   EXPECT_FALSE(parts[2] == others[2]);
@@ -195,7 +195,7 @@ TEST(DrawingCodec, APartIsOfItsObjectsAlone) {
 }
 
 TEST(DrawingCodec, PartsThatAreNotThoseOfADrawingAreRefused) {
-  const auto parts = parts_of(drawn(ship(), {}));
+  const auto parts = coded_parts_of(drawn(ship(), {}));
   ASSERT_TRUE(read_parts_back(parts));
   const auto is_refused = [](const std::vector<std::vector<std::byte>>& wrong) {
     const auto read = read_parts_back(wrong);
@@ -309,7 +309,7 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
         wrong.clipped_left_out != sound.clipped_left_out || !write_lines(part, wrong, {0, 5}))
       continue;
     ++in_parts;
-    const auto of_parts = read_parts_back(parts_of(wrong));
+    const auto of_parts = read_parts_back(coded_parts_of(wrong));
     ASSERT_FALSE(of_parts) << "fault " << f;
     EXPECT_EQ(of_parts.error().code, ErrorCode::input);
   }

@@ -41,7 +41,7 @@ std::string text_of(ClashModel m) {
   return text;
 }
 
-Result<ClashDocument> parsed(const std::string& text) {
+Result<ClashDocument> document_of(const std::string& text) {
   std::istringstream in(text);
   return parse_clash_document(in, "x.json");
 }
@@ -53,7 +53,9 @@ struct Runs {
 
   Runs(const ClashModel& x, const ClashModel& y) : Runs(text_of(x), text_of(y)) {}
   Runs(const std::string& x, const std::string& y)
-      : before(parsed(x).value()), after(parsed(y).value()), diff(compare(before, after)) {}
+      : before(document_of(x).value()),
+        after(document_of(y).value()),
+        diff(compare(before, after)) {}
 
   /// How many are new, changed, the same, gone, and cannot be known.
   [[nodiscard]] std::vector<std::size_t> counts() const {
@@ -164,7 +166,7 @@ TEST(ClashDiffPositions, BitsThatDoNotGoWithTheElementsAreRefused) {
   const std::size_t at = text.find(bits);
   ASSERT_NE(at, std::string::npos);
   text.insert(at + bits.size(), "AAAA");
-  const Result<ClashDocument> read = parsed(text);
+  const Result<ClashDocument> read = document_of(text);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("\"positional_ids\" does not go with \"elements\""),
             std::string::npos);
@@ -190,10 +192,10 @@ std::string text_of_file(ClashModel m, const std::string& label) {
 
 TEST(ClashDiffPositions, ARenamedFileWithoutLastingIdsIsFoundByItsPlaces) {
   const ClashDocument before =
-      parsed(text_of(unnamed({{0, 0, 0}, {90, 0, 0}, {1000, 0, 0}, {1040, 0, 0}}))).value();
+      document_of(text_of(unnamed({{0, 0, 0}, {90, 0, 0}, {1000, 0, 0}, {1040, 0, 0}}))).value();
   const ClashModel moved =
       unnamed({{1000, 0, 0}, {1040, 0, 0}, {-9000, 0, 0}, {0, 0, 0}, {90, 0, 0}});
-  const ClashDocument after = parsed(text_of_file(moved, "tues.obj")).value();
+  const ClashDocument after = document_of(text_of_file(moved, "tues.obj")).value();
   EXPECT_EQ(compare(before, after).same.size(), 0U) << "labels decide where no files are given";
   const auto files = match_files(before, after);
   ASSERT_TRUE(files);
@@ -212,8 +214,8 @@ TEST(ClashDiffPositions, WhatIsMendedInARenamedFileIsGone) {
     m.box("c", {c_from, 10, 10}, {300, 90, 90}).box("d", {290, 0, 0}, {400, 100, 100});
     return m;
   };
-  const ClashDocument before = parsed(text_of(boxes(180))).value();
-  const ClashDocument after = parsed(text_of_file(boxes(210), "revB.obj")).value();
+  const ClashDocument before = document_of(text_of(boxes(180))).value();
+  const ClashDocument after = document_of(text_of_file(boxes(210), "revB.obj")).value();
   const auto files = match_files(before, after);
   ASSERT_TRUE(files);
   EXPECT_EQ(files->matches.at(0), (FileMatch{"t.obj", "revB.obj", FileRelation::renamed, 4, 4}));

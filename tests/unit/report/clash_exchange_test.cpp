@@ -26,8 +26,8 @@ using test::findings_up_to_25_mm;
 using test::row_of_boxes;
 
 template <class Write>
-std::string written(Write&& write, const ClashContents& contents,
-                    const parallel::Context& context = {}) {
+std::string exchanged(Write&& write, const ClashContents& contents,
+                      const parallel::Context& context = {}) {
   std::string text;
   EXPECT_TRUE(write(contents, [&](std::string_view piece) { text += piece; }, context));
   return text;
@@ -48,7 +48,7 @@ std::string key_of(const ClashModel& m, const clash::Pair& pair) {
 TEST(ClashXml, HasEachResultWithItsSignedDistance) {
   const ClashModel m = row_of_boxes();
   const clash::Findings findings = findings_up_to_25_mm(m);
-  const std::string xml = written(write_clash_xml, {findings, m.model});
+  const std::string xml = exchanged(write_clash_xml, {findings, m.model});
   EXPECT_EQ(count(xml, "<clashresult "), 3U);
   EXPECT_TRUE(has(xml, R"(<clashresult name="Clash1" guid=")")) << xml;
   EXPECT_TRUE(has(xml, R"( status="new" distance="-20.5"><description>Hard</description>)")) << xml;
@@ -62,9 +62,9 @@ TEST(ClashXml, GuidsStayWithTheClashAndNotWithItsPlaceInTheFile) {
   const ClashModel m = row_of_boxes();
   clash::Findings findings = findings_up_to_25_mm(m);
   const std::string guid = uuid_from_key(kClashNamespace, key_of(m, findings.tests[0].pairs[2]));
-  EXPECT_TRUE(has(written(write_clash_xml, {findings, m.model}), "\"Clash3\" guid=\"" + guid));
+  EXPECT_TRUE(has(exchanged(write_clash_xml, {findings, m.model}), "\"Clash3\" guid=\"" + guid));
   findings.tests[0].pairs.erase(findings.tests[0].pairs.begin());
-  EXPECT_TRUE(has(written(write_clash_xml, {findings, m.model}), "\"Clash2\" guid=\"" + guid));
+  EXPECT_TRUE(has(exchanged(write_clash_xml, {findings, m.model}), "\"Clash2\" guid=\"" + guid));
 }
 
 TEST(ClashXml, ReportsWhatWasDecided) {
@@ -80,7 +80,7 @@ TEST(ClashXml, ReportsWhatWasDecided) {
   const Result<DecidedResults> decided = decide(findings, m.model, *file, {});
   ASSERT_TRUE(decided);
   const std::string xml =
-      written(write_clash_xml, {.findings = findings, .model = m.model, .decided = &*decided});
+      exchanged(write_clash_xml, {.findings = findings, .model = m.model, .decided = &*decided});
   EXPECT_TRUE(has(xml, R"(status="approved" distance="-20.5")")) << xml;
   EXPECT_TRUE(has(xml,
                   "<approvedby>N. N.</approvedby><approveddate><date year=\"2026\" month=\"1\" "
@@ -100,7 +100,7 @@ TEST(ClashXml, PutsTheResultsOfAGroupIntoIt) {
       clash::group_results(findings, m.model, {.by = clash::GroupBy::element});
   ASSERT_TRUE(grouping);
   const std::string xml =
-      written(write_clash_xml, {.findings = findings, .model = m.model, .grouping = &*grouping});
+      exchanged(write_clash_xml, {.findings = findings, .model = m.model, .grouping = &*grouping});
   // The contact belongs to no group and comes last.
   ASSERT_EQ(grouping->groups.size(), 2U);
   EXPECT_EQ(count(xml, "<clashgroup "), 2U);
@@ -114,7 +114,7 @@ TEST(ClashXml, NamesAreText) {
   m.model.objects[0].name =
       std::string("</name>&\"'\x01\xFF\xE2\x80\xAE") + std::string(10000, 'x');
   const clash::Findings findings = findings_up_to_25_mm(m);
-  const std::string xml = written(write_clash_xml, {findings, m.model});
+  const std::string xml = exchanged(write_clash_xml, {findings, m.model});
   EXPECT_TRUE(has(xml, "&lt;/name&gt;&amp;&quot;&#39;\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDxxx"));
   EXPECT_EQ(xml.find('\x01'), xml.npos);
 }
@@ -124,14 +124,14 @@ TEST(ClashXml, ResultsThatARuleAllowsAreLeftOut) {
   clash::Findings findings = findings_up_to_25_mm(m);
   findings.tests[0].pairs[0].allowed = 0;
   findings.tests[0].allowed.push_back({.rule = "r"});
-  EXPECT_EQ(count(written(write_clash_xml, {findings, m.model}), "<clashresult "), 2U);
+  EXPECT_EQ(count(exchanged(write_clash_xml, {findings, m.model}), "<clashresult "), 2U);
 }
 
 TEST(IfcclashJson, HasASetForEachKindOfResult) {
   ClashModel m = row_of_boxes();
   m.model.objects[0].attributes = {{"Class", "IfcWall"}};
   const clash::Findings findings = findings_up_to_25_mm(m);
-  const json sets = json::parse(written(write_ifcclash_json, {findings, m.model}));
+  const json sets = json::parse(exchanged(write_ifcclash_json, {findings, m.model}));
   ASSERT_EQ(sets.size(), 3U);
   EXPECT_EQ(sets[0]["name"], "Strake");
   EXPECT_EQ(sets[0]["mode"], "intersection");
@@ -162,7 +162,8 @@ TEST(IfcclashJson, IdsOfSeveralFilesAreDistinguished) {
   m.model.objects[3].id = "b";
   clash::Findings findings = findings_up_to_25_mm(m);
   findings.tests[0].pairs[2].cls = clash::Class::hit;
-  const json clashes = json::parse(written(write_ifcclash_json, {findings, m.model}))[0]["clashes"];
+  const json clashes =
+      json::parse(exchanged(write_ifcclash_json, {findings, m.model}))[0]["clashes"];
   EXPECT_TRUE(clashes.contains("t.obj:a-t.obj:b")) << clashes;
   EXPECT_TRUE(clashes.contains("u.obj:a-u.obj:b")) << clashes;
 }
@@ -175,7 +176,8 @@ TEST(IfcclashJson, IdsWithHyphensAreDistinguished) {
   m.model.objects[3].id = "y-z%2D";
   clash::Findings findings = findings_up_to_25_mm(m);
   findings.tests[0].pairs[2].cls = clash::Class::hit;
-  const json clashes = json::parse(written(write_ifcclash_json, {findings, m.model}))[0]["clashes"];
+  const json clashes =
+      json::parse(exchanged(write_ifcclash_json, {findings, m.model}))[0]["clashes"];
   EXPECT_TRUE(clashes.contains("x%2Dy-z")) << clashes;
   EXPECT_TRUE(clashes.contains("x-y%2Dz%252D")) << clashes;
 }
@@ -184,7 +186,7 @@ TEST(IfcclashJson, ATestWithoutHitsIsASetWithoutClashes) {
   const ClashModel m = row_of_boxes();
   clash::Findings findings = findings_up_to_25_mm(m);
   findings.tests[0].pairs.clear();
-  const json sets = json::parse(written(write_ifcclash_json, {findings, m.model}));
+  const json sets = json::parse(exchanged(write_ifcclash_json, {findings, m.model}));
   ASSERT_EQ(sets.size(), 1U);
   EXPECT_TRUE(sets[0]["clashes"].is_object());
   EXPECT_TRUE(sets[0]["clashes"].empty());
