@@ -44,9 +44,9 @@ void bench_pair(const Kind& a, const Kind& b) {
   const Placement here{turn, {}};
   const std::string name =
       std::string(kind_name(a.primitive)) + " and " + std::string(kind_name(b.primitive));
-  const auto run = [&](double gap, double enough) {
+  const auto run = [&](double gap, double cutoff) {
     const Placement there = at(gap);
-    return iterative_separation({&a.primitive, &here}, {&b.primitive, &there}, enough);
+    return iterative_separation({&a.primitive, &here}, {&b.primitive, &there}, cutoff);
   };
   const double far = 1e300;
   const auto beside = run(10, far), meeting = run(-5, far), away = run(200, 1000);

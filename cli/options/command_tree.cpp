@@ -63,7 +63,8 @@ CommandTree command_tree(const CLI::App& program) {
   tree.name = program.get_name();
   tree.description = program.get_description();
   tree.footer = program.get_footer();
-  for (const CLI::Option* option : program.get_options())
+  const auto is_shown = [](const CLI::Option* option) { return !option->get_group().empty(); };
+  for (const CLI::Option* option : program.get_options(is_shown))
     (option->get_positional() ? tree.arguments : tree.options).push_back(text_of(*option));
   for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
     tree.verbs.push_back(command_tree(*verb));

@@ -144,6 +144,10 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
       });
 }
 
+void add_former_name(CLI::App& command, const std::string& name, std::string& value) {
+  command.add_option(name, value)->group("");  // hidden
+}
+
 CLI::Option* may_repeat(CLI::Option* option) {
   return option->expected(1)->allow_extra_args(false)->multi_option_policy(
       CLI::MultiOptionPolicy::TakeAll);

@@ -51,6 +51,9 @@ CLI::Option* add_match_files_option(CLI::App& command, std::vector<std::string>&
 /// Adds an option whose value is one of a few words.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
+/// Lets `value` be given by a name that its option had before, which no help, page or completion
+/// shows.
+void add_former_name(CLI::App& command, const std::string& name, std::string& value);
 
 /// Lets an option be given several times, with one value each.
 CLI::Option* may_repeat(CLI::Option* option);

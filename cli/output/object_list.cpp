@@ -28,7 +28,7 @@ std::string shown_value(std::string_view value) {
   if (text.size() <= kMaxValueBytes) return in_quotes(text);
   std::string cut;
   for (std::string_view rest = text; cut.size() < kMaxValueBytes;)
-    cut += take_character(rest).bytes;
+    cut += decode_character(rest).bytes;
   return in_quotes(cut + "…");
 }
 

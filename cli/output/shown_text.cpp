@@ -14,7 +14,8 @@ std::string shown_line(std::string_view line) {
   constexpr std::size_t kLongestBytes = 2000;
   if (line.size() <= kLongestBytes) return printable(line);
   std::string cut;
-  for (std::string_view rest = line; cut.size() < kLongestBytes;) cut += take_character(rest).bytes;
+  for (std::string_view rest = line; cut.size() < kLongestBytes;)
+    cut += decode_character(rest).bytes;
   return printable(cut) + "…";
 }
 

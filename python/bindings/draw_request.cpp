@@ -33,7 +33,7 @@ Result<geometry::Vec3l> grid_point(const std::array<double, 3>& mm, const char* 
 
 /// Parses one of some words; `name_of` spells each.
 template <class Word, class Name, std::size_t Size>
-Status take_word(const std::string& text, const std::array<Word, Size>& words, Name name_of,
+Status read_word(const std::string& text, const std::array<Word, Size>& words, Name name_of,
                  const char* argument, Word& into) {
   std::string all;
   for (const Word word : words) {
@@ -123,15 +123,15 @@ Result<hlr::Options> line_options(const DrawRequest& request) {
   hlr::Options options;
   using hlr::Intersections, hlr::OwnPolylines, hlr::Smooth, hlr::Stage;
   for (const Status& status :
-       {take_word(request.stage, std::array{Stage::none, Stage::local, Stage::global},
+       {read_word(request.stage, std::array{Stage::none, Stage::local, Stage::global},
                   drawing::stage_name, "stage", options.stage),
-        take_word(request.intersections,
+        read_word(request.intersections,
                   std::array{Intersections::off, Intersections::objects, Intersections::primitives,
                              Intersections::parts},
                   drawing::intersections_name, "intersections", options.intersections),
-        take_word(request.own_polylines, std::array{OwnPolylines::visible, OwnPolylines::hidden},
+        read_word(request.own_polylines, std::array{OwnPolylines::visible, OwnPolylines::hidden},
                   drawing::own_polylines_name, "own_polylines", options.own_polylines),
-        take_word(request.smooth, std::array{Smooth::off, Smooth::tangent, Smooth::all},
+        read_word(request.smooth, std::array{Smooth::off, Smooth::tangent, Smooth::all},
                   drawing::smooth_name, "smooth", options.smooth)})
     if (!status) return status.error();
   if (request.hidden != "off" && request.hidden != "dashed" && request.hidden != "all")

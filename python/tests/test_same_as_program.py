@@ -57,7 +57,7 @@ FORMS: list[tuple[str, list[str], dict[str, Any]]] = [
     ("c.csv", ["--csv", "excel-comma"], {"csv": "excel-comma"}),
     ("c.xlsx", [], {}),
     ("c.html", ["--page-geometry", "near"], {"page_geometry": "near"}),
-    ("c.bcf", ["--bcf-version", "3.0", "--bcf-most", "7", "--bcf-contacts", "--bcf-date", "2026-01-31", "--bcf-author", "Ann"],
+    ("c.bcf", ["--bcf-version", "3.0", "--bcf-max-topics", "7", "--bcf-contacts", "--bcf-date", "2026-01-31", "--bcf-author", "Ann"],
      {"bcf_version": "3.0", "bcf_most": 7, "bcf_contacts": True, "bcf_date": "2026-01-31", "bcf_author": "Ann"}),
     ("c.xml", [], {}),
     ("c.svg", [], {}),

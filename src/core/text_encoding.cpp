@@ -74,7 +74,7 @@ bool is_bidi_control(std::uint32_t code) {
          code == 0x200E || code == 0x200F || code == 0x061C;
 }
 
-TakenCharacter take_character(std::string_view& text) {
+DecodedCharacter decode_character(std::string_view& text) {
   const Character c = first_character(text);
   const std::string_view bytes = text.substr(0, c.length == 0 ? 1 : c.length);
   text.remove_prefix(bytes.size());
@@ -89,7 +89,7 @@ std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     out += is_printable(c) ? c.bytes : "?";
   }
   return out;
@@ -167,7 +167,7 @@ std::string valid_utf8(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (move_run(out, text); !text.empty(); move_run(out, text)) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     out += c.length == 0 ? kReplacement : c.bytes;
   }
   return out;
@@ -180,7 +180,7 @@ std::string_view valid_utf8(std::string_view text, std::string& room) {
 void append_json_string(std::string& out, std::string_view text) {
   out += '"';
   for (move_run(out, text); !text.empty(); move_run(out, text)) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     if (c.length == 0)
       out += kReplacement;
     else if (c.code < 0x20 || c.code == 0x7F || c.code == '"' || c.code == '\\')

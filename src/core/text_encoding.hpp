@@ -26,12 +26,12 @@ struct Character {
 [[nodiscard]] Character first_character(std::string_view text);
 
 /// A character with its bytes: a single byte where they are not UTF-8.
-struct TakenCharacter : Character {
+struct DecodedCharacter : Character {
   std::string_view bytes;
 };
 
 /// Takes the first character off a text that is not empty.
-[[nodiscard]] TakenCharacter take_character(std::string_view& text);
+[[nodiscard]] DecodedCharacter decode_character(std::string_view& text);
 
 /// Whether all of it is well-formed UTF-8: no overlong forms, no surrogates.
 [[nodiscard]] bool is_utf8(std::string_view text);

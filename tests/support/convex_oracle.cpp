@@ -14,7 +14,7 @@ namespace {
 using namespace geometry;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double norm(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
@@ -47,7 +47,7 @@ double min_angle(const F& f) {
   constexpr double kStep = 2 * kPi / kSamples;
   std::array<double, kSamples> value{};
   for (std::size_t i = 0; i < kSamples; ++i) value[i] = f(kStep * static_cast<double>(i));
-  double best = 0, least = kNever;
+  double best = 0, least = kInfinity;
   for (std::size_t i = 0; i < kSamples; ++i) {
     const double before = value[(i + kSamples - 1) % kSamples], after = value[(i + 1) % kSamples];
     if (before < value[i] || after < value[i]) continue;
@@ -149,7 +149,7 @@ struct Support {
 
 /// The half-space round a body that a point lies least deep in, and how deep; negative: outside.
 struct Under {
-  double depth = kNever;
+  double depth = kInfinity;
   Vec3d normal;
 
   void offer(double other, const Vec3d& way) {
@@ -283,7 +283,7 @@ struct Sample {
 
 /// lower <= least value <= upper; `upper` infinite where no allowed point was found.
 struct Least {
-  double lower = -kNever, upper = kNever;
+  double lower = -kInfinity, upper = kInfinity;
 };
 
 /// Cuts an ellipsoid that holds the least point, as deep as is known, until it is too small. The
@@ -321,7 +321,7 @@ constexpr double kNarrow = 1e-7;
 
 struct Parting {
   Least gap;  ///< minus the distance: the least overlap over all directions, of any size
-  double overlap = kNever;  ///< the least along a direction of length one that was tried
+  double overlap = kInfinity;  ///< the least along a direction of length one that was tried
 };
 
 Parting parting(const Placed& a, const Placed& b) {

@@ -57,10 +57,9 @@ struct ClashOptions {
 
 Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
   clash::EngineOptions engine;
-  if (const Status status = whole_number(engine.max_pairs, given.max_pairs, "--most-pairs");
-      !status)
+  if (const Status status = whole_number(engine.max_pairs, given.max_pairs, "--max-pairs"); !status)
     return status.error();
-  if (const Status status = whole_number(engine.max_spheres, given.max_spheres, "--most-spheres");
+  if (const Status status = whole_number(engine.max_spheres, given.max_spheres, "--max-spheres");
       !status)
     return status.error();
   if (const Status status = whole_number(engine.max_regions, given.result.regions, "--regions");
@@ -519,19 +518,21 @@ void add_engine_options(CLI::App& command, ClashOptions& options) {
              "(default exact)")
       ->group("Running");
   command
-      .add_option("--most-spheres", options.max_spheres,
+      .add_option("--max-spheres", options.max_spheres,
                   fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
                               "it gives up and says so (default {})",
                               clash::EngineOptions{}.max_spheres))
       ->type_name("N")
       ->group("Running");
+  add_former_name(command, "--most-spheres", options.max_spheres);
   command
-      .add_option("--most-pairs", options.max_pairs,
+      .add_option("--max-pairs", options.max_pairs,
                   fmt::format("Most pairs of parts that may be within reach of each other, some "
                               "300 bytes each (default {})",
                               clash::EngineOptions{}.max_pairs))
       ->type_name("N")
       ->group("Running");
+  add_former_name(command, "--most-pairs", options.max_pairs);
 }
 
 }  // namespace
@@ -573,7 +574,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
-  strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
+  strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-max-topics 200
   strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash ship.glb --scheduler tcp://10.0.0.1:8786 --tile-folder /net/tiles -o clashes.json

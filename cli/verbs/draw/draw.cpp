@@ -44,7 +44,7 @@ Status check_view_name(const DrawOptions& given) {
     return Error{ErrorCode::usage, fmt::format("a name of {} bytes is too long", given.save.size()),
                  "--save", fmt::format("give one of at most {}", kLongestName)};
   for (std::string_view rest = given.save; !rest.empty();)
-    if (!is_printable(take_character(rest)))
+    if (!is_printable(decode_character(rest)))
       return Error{ErrorCode::usage,
                    in_quotes(printable(given.save)) + " holds characters that cannot be shown",
                    "--save", "give a name of letters, digits and signs, in UTF-8"};

@@ -38,24 +38,24 @@ struct LowerDimensionalSeparation {
 /// Returns the separation of two bodies without thickness. It is exact to the last rounding where
 /// neither has an arc (closest_points() between their simplices); arcs take the solver of
 /// iterative_separation(), whose bracket is a tenth of a unit wide unless two arcs run along each
-/// other. Where they are at least `enough` apart the answer may be any certain lower bound from
-/// `enough` up.
+/// other. Where they are at least `cutoff` apart the answer may be any certain lower bound from
+/// `cutoff` up.
 [[nodiscard]] LowerDimensionalSeparation lower_dimensional_separation(
     const LowerDimensionalBody& a, const LowerDimensionalBody& b,
-    double enough = std::numeric_limits<double>::infinity());
+    double cutoff = std::numeric_limits<double>::infinity());
 
 /// Returns the separation from a primitive's true surface, by the certified solver: the bracket is
 /// a fraction of a unit wide. Crossing a primitive that has no thickness counts as touching here;
 /// its mesh gives more. Nothing for primitives that iterative_separation() leaves out.
 [[nodiscard]] std::optional<LowerDimensionalSeparation> lower_dimensional_separation(
     const LowerDimensionalBody& thin, const PlacedPrimitive& primitive,
-    double enough = std::numeric_limits<double>::infinity());
+    double cutoff = std::numeric_limits<double>::infinity());
 
 /// Returns the separation from the triangles of a mesh. Distances are exact but for arcs; depths
 /// come from a branch and bound over the simplices that stops as `goal` says, halves of an arc
 /// being measured along their chords, with their sagitta in the bracket.
 [[nodiscard]] LowerDimensionalSeparation lower_dimensional_separation(
     const LowerDimensionalBody& thin, const PartWithBvh& mesh, const DepthOptions& goal,
-    QueryContext& work, double enough = std::numeric_limits<double>::infinity());
+    QueryContext& work, double cutoff = std::numeric_limits<double>::infinity());
 
 }  // namespace strake::geometry

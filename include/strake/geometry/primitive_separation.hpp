@@ -55,11 +55,11 @@ struct PrimitiveSeparation {
 /// rings that run along the other body for long: d is then the value at the points found, a touch
 /// where these show no overlap.
 ///
-/// Where the two are at least `enough` apart the result may be any certain lower bound from
-/// `enough` up, with a bracket of no width.
+/// Where the two are at least `cutoff` apart the result may be any certain lower bound from
+/// `cutoff` up, with a bracket of no width.
 [[nodiscard]] std::optional<PrimitiveSeparation> primitive_separation(
     const PlacedPrimitive& a, const PlacedPrimitive& b,
-    double enough = std::numeric_limits<double>::infinity());
+    double cutoff = std::numeric_limits<double>::infinity());
 
 /// Returns the signed separation without closed forms, as the reference for them. Apart: a
 /// separating plane bounds it from below, a pair of points from above (Gilbert, Johnson and Keerthi
@@ -67,7 +67,7 @@ struct PrimitiveSeparation {
 /// 1960), bounded by its multipliers from above and by a point of certain depth from below.
 [[nodiscard]] std::optional<PrimitiveSeparation> iterative_separation(
     const PlacedPrimitive& a, const PlacedPrimitive& b,
-    double enough = std::numeric_limits<double>::infinity());
+    double cutoff = std::numeric_limits<double>::infinity());
 
 /// The distance of a primitive's true body and the triangles of a mesh, grid units: lower <=
 /// distance <= upper is certain. A mesh that encloses the primitive is as far away as its
@@ -79,10 +79,10 @@ struct PrimitiveMeshDistance {
 };
 
 /// Returns the distance by convex hulls and triangles as in iterative_separation(), driven by the
-/// mesh's BVH. Where no triangle is nearer than `enough`, lower is at least that. Nothing for
+/// mesh's BVH. Where no triangle is nearer than `cutoff`, lower is at least that. Nothing for
 /// primitives that iterative_separation() leaves out.
 [[nodiscard]] std::optional<PrimitiveMeshDistance> primitive_mesh_distance(
     const PlacedPrimitive& primitive, const PartWithBvh& mesh,
-    double enough = std::numeric_limits<double>::infinity());
+    double cutoff = std::numeric_limits<double>::infinity());
 
 }  // namespace strake::geometry

@@ -138,7 +138,7 @@ Status write_bcf(const report::ClashContents& given, report::Sink sink,
   report::ClashContents contents = given;
   if (contents.bcf.date.empty()) contents.bcf.date = newest_date(contents.model);
   const TopicPlan plan = plan_topics(contents);
-  report::ZipWriter zip(sink, "write fewer topics with --bcf-most");
+  report::ZipWriter zip(sink, "write fewer topics with --bcf-max-topics");
   if (const Status status = zip.add_file("bcf.version", version_file(contents.bcf.version_3));
       !status)
     return status;

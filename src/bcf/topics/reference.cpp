@@ -17,7 +17,7 @@ constexpr std::string_view kGroup = "group=", kAssignee = "assignee=";
 constexpr std::string_view kBlanks = " \t\r\n";
 
 /// Takes the next word off a text; empty at its end.
-std::string_view take_word(std::string_view& text) {
+std::string_view read_word(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   text.remove_prefix(word.size());
@@ -97,17 +97,17 @@ std::optional<ClashReference> find_reference(std::string_view description) {
   if (at == std::string_view::npos) return std::nullopt;
   std::string_view rest = description.substr(at + kBegin.size());
   ClashReference reference;
-  std::string_view word = take_word(rest);
+  std::string_view word = read_word(rest);
   if (word.starts_with(kGroup)) {
     reference.group = word.substr(kGroup.size());
-    word = take_word(rest);
+    word = read_word(rest);
   }
   if (!word.starts_with(kAssignee)) return std::nullopt;
   reference.assignee_mark = word.substr(kAssignee.size());
   // A clash that is named twice is decided about once, as it was named first.
   std::set<std::string> keys;
   while (reference.clashes.size() < kMaxReferred) {
-    std::optional<ReferredClash> clash = referred(take_word(rest));
+    std::optional<ReferredClash> clash = referred(read_word(rest));
     if (!clash) break;
     if (keys.insert(clash->key).second) reference.clashes.push_back(std::move(*clash));
   }

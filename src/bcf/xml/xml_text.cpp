@@ -49,7 +49,7 @@ std::string short_name(std::string_view name, std::size_t limit) {
   std::string shown = printable(name);
   std::vector<std::string_view> characters;
   for (std::string_view rest = shown; !rest.empty();)
-    characters.push_back(take_character(rest).bytes);
+    characters.push_back(decode_character(rest).bytes);
   if (characters.size() <= limit) return shown;
   const std::size_t front = (limit - 1) / 2, back = limit - 1 - front;
   std::string cut;

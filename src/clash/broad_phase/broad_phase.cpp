@@ -130,7 +130,7 @@ Error too_many(const Options& options) {
           "more than " + std::to_string(options.engine.max_pairs) +
               " pairs of parts are within reach of each other",
           "clash",
-          "give a smaller clearance, or raise the limit with --most-pairs; or the model holds many "
+          "give a smaller clearance, or raise the limit with --max-pairs; or the model holds many "
           "objects at one place"};
 }
 

@@ -45,13 +45,13 @@ geometry::Depth depth_of(const PairOperand& a, const PairOperand& b, const Depth
   return geometry::solid_depth(x, y, goal, work.pair);
 }
 
-std::optional<ClosedForm> closed_form(const PairOperand& a, const PairOperand& b, double enough) {
+std::optional<ClosedForm> closed_form(const PairOperand& a, const PairOperand& b, double cutoff) {
   const Part &x = *a.treed.placed.part, &y = *b.treed.placed.part;
   const auto &p = x.primitive, &q = y.primitive;
   if (!p || !q || a.placement == nullptr || b.placement == nullptr) return std::nullopt;
   // Triangles that are the true surface are compared exactly.
   if (!(x.sag + y.sag > 0)) return std::nullopt;
-  const auto s = geometry::primitive_separation({&*p, a.placement}, {&*q, b.placement}, enough + 1);
+  const auto s = geometry::primitive_separation({&*p, a.placement}, {&*q, b.placement}, cutoff + 1);
   const auto centre = geometry::snap(a.placement->translation);
   if (!s || !centre) return std::nullopt;
   if (s->sheet_a != (x.kind == PartKind::sheet) || s->sheet_b != (y.kind == PartKind::sheet))

@@ -24,9 +24,9 @@ struct ClosedForm {
 };
 
 /// Returns the closed form of two primitives whose triangles are not their true surfaces, if there
-/// is one; `enough` as in geometry::primitive_separation().
+/// is one; `cutoff` as in geometry::primitive_separation().
 [[nodiscard]] std::optional<ClosedForm> closed_form(const PairOperand& a, const PairOperand& b,
-                                                    double enough);
+                                                    double cutoff);
 
 /// Returns the relation that a closed form shows; `band` is δ in grid units.
 [[nodiscard]] Relation relation_of(const geometry::PrimitiveSeparation& s, double band);

@@ -10,7 +10,7 @@ bool is_xml(std::uint32_t code) {
   return (code >= 0x20 && code <= 0xD7FF) || (code >= 0xE000 && code <= 0xFFFD) || code >= 0x10000;
 }
 
-bool is_kept(const TakenCharacter& c, XmlCharacters kept) {
+bool is_kept(const DecodedCharacter& c, XmlCharacters kept) {
   if (c.length == 0 || !is_xml(c.code)) return false;
   if (kept == XmlCharacters::all || is_printable(c)) return true;
   return kept == XmlCharacters::lines && c.code < 0x20;
@@ -18,7 +18,7 @@ bool is_kept(const TakenCharacter& c, XmlCharacters kept) {
 
 }  // namespace
 
-void append_xml(std::string& out, const TakenCharacter& c, XmlCharacters kept) {
+void append_xml(std::string& out, const DecodedCharacter& c, XmlCharacters kept) {
   if (!is_kept(c, kept))
     out += kReplacement;
   else if (c.code == '&')
@@ -38,7 +38,7 @@ void append_xml(std::string& out, const TakenCharacter& c, XmlCharacters kept) {
 }
 
 void append_xml(std::string& out, std::string_view text, XmlCharacters kept) {
-  while (!text.empty()) append_xml(out, take_character(text), kept);
+  while (!text.empty()) append_xml(out, decode_character(text), kept);
 }
 
 }  // namespace strake

@@ -19,7 +19,7 @@ enum class XmlCharacters : std::uint8_t {
 
 /// Appends a character as text or value of XML: what is markup as a reference, and a carriage
 /// return, which readers would take for a line end.
-void append_xml(std::string& out, const TakenCharacter& c, XmlCharacters kept);
+void append_xml(std::string& out, const DecodedCharacter& c, XmlCharacters kept);
 /// Appends a text, character by character.
 void append_xml(std::string& out, std::string_view text, XmlCharacters kept);
 

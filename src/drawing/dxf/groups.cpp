@@ -21,7 +21,7 @@ void append_whole(std::string& out, std::int64_t value) {
 bool ends_line(std::uint32_t code) { return code == 0x2028 || code == 0x2029; }
 
 /// Returns how one line of a file spells a character; `rest` follows it.
-std::string_view spelling(const TakenCharacter& c, std::string_view rest) {
+std::string_view spelling(const DecodedCharacter& c, std::string_view rest) {
   if (!is_printable(c) || ends_line(c.code)) return kReplacement;
   if (c.code == '^') return "^ ";
   if (c.code == '\\' && (rest.starts_with("U+") || rest.starts_with("M+"))) return "\\U+005C";
@@ -37,7 +37,7 @@ std::string spelled(std::string_view text, std::size_t limit, Spell&& spell) {
   std::size_t room = 0;  // the length of what leaves room for the ellipsis
   std::uint32_t before = 0;
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     out += spell(before, c, text);
     before = c.code;
     if (out.size() + kEllipsis.size() <= limit) room = out.size();
@@ -94,7 +94,7 @@ Groups& Groups::point_in_space(int code, double x, double y) {
 }
 
 std::string value_text(std::string_view text, std::size_t limit) {
-  return spelled(text, limit, [](std::uint32_t, const TakenCharacter& c, std::string_view rest) {
+  return spelled(text, limit, [](std::uint32_t, const DecodedCharacter& c, std::string_view rest) {
     return spelling(c, rest);
   });
 }
@@ -102,7 +102,7 @@ std::string value_text(std::string_view text, std::size_t limit) {
 std::string shown_text(std::string_view text) {
   // "%%%" is one percent sign; alone it is itself.
   return spelled(text, kMaxOfText,
-                 [](std::uint32_t before, const TakenCharacter& c, std::string_view rest) {
+                 [](std::uint32_t before, const DecodedCharacter& c, std::string_view rest) {
                    const bool doubled = c.code == '%' && (before == '%' || rest.starts_with('%'));
                    return doubled ? std::string_view("%%%") : spelling(c, rest);
                  });

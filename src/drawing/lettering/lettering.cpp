@@ -29,7 +29,7 @@ LetteredText Letterer::set(std::string_view text) {
   LetteredText set;
   const std::string_view whole = text;
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     const bool shown = is_printable(c);
     set.text += shown ? c.bytes : kReplacement;
     const std::uint32_t code = shown ? c.code : kReplacementCode;
@@ -58,7 +58,7 @@ Diagnostics Letterer::diagnostics() const {
 
 LetterWidths::LetterWidths() : font_(font_data()) {}
 
-double LetterWidths::of(const TakenCharacter& character) const {
+double LetterWidths::of(const DecodedCharacter& character) const {
   const GlyphId glyph = character.length > 0 ? font_.glyph_of(character.code) : kMissingGlyph;
   if (glyph != kMissingGlyph) return std::round(font_.advance(glyph)) / 1000;
   constexpr double kSquareLetter = 1.05, kOtherLetter = 0.8;

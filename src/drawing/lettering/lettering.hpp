@@ -56,7 +56,7 @@ class LetterWidths {
 
   /// Returns the width of a character in sizes of the font, in whole thousandths. What the font
   /// lacks is as wide as such writing usually is.
-  [[nodiscard]] double of(const TakenCharacter& character) const;
+  [[nodiscard]] double of(const DecodedCharacter& character) const;
 
  private:
   TrueTypeFont font_;

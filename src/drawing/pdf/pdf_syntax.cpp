@@ -91,7 +91,7 @@ std::string pdf_text(std::string_view text) {
   constexpr std::uint32_t kUnshown = 0xFFFD;
   std::string wide = "\xFE\xFF";
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     append_utf16(wide, is_printable(c) ? c.code : kUnshown);
   }
   append_pdf_literal(out, wide);

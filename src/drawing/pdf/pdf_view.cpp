@@ -50,7 +50,7 @@ std::string mark_text(std::string_view name) {
   std::string_view rest = name.substr(0, kMaxBytes);
   std::string cut;
   while (!rest.empty()) {
-    const TakenCharacter c = take_character(rest);
+    const DecodedCharacter c = decode_character(rest);
     if (c.length > 0 || !rest.empty()) cut += c.bytes;  // not half a character
   }
   return pdf_text(cut + "\xE2\x80\xA6");

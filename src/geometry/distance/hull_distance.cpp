@@ -5,11 +5,11 @@
 
 namespace strake::geometry {
 
-SeparationBound convex_hull_separation(const PartWithObb& a, const PartWithObb& b, double enough) {
+SeparationBound convex_hull_separation(const PartWithObb& a, const PartWithObb& b, double cutoff) {
   const Vec3l shift = b.placed.origin - a.placed.origin;
   const primitive_pairs::GjkResult gap = primitive_pairs::gjk_distance(
       convex_hull_body(*a.placed.part, a.frame->vertices, {}),
-      convex_hull_body(*b.placed.part, b.frame->vertices, shift.as<double>()), enough);
+      convex_hull_body(*b.placed.part, b.frame->vertices, shift.as<double>()), cutoff);
   return {gap.lower, gap.normal};
 }
 

@@ -30,9 +30,9 @@ namespace strake::geometry {
 }
 
 /// Returns the separation of the convex hulls of two parts with vertices, by Gilbert, Johnson and
-/// Keerthi (1988). Stops at a lower bound of `enough` grid units; a bound that is not positive
+/// Keerthi (1988). Stops at a lower bound of `cutoff` grid units; a bound that is not positive
 /// means nothing. Costs about ten support queries on either.
 [[nodiscard]] SeparationBound convex_hull_separation(const PartWithObb& a, const PartWithObb& b,
-                                                     double enough);
+                                                     double cutoff);
 
 }  // namespace strake::geometry

@@ -81,13 +81,13 @@ class ClosestSearch {
   /// The result of a traversal, or of a subtask of one.
   struct Found {
     double reach = 0;    ///< squared distances strictly above this are pruned
-    double enough = -1;  ///< a squared distance that ends the search
+    double cutoff = -1;  ///< a squared distance that ends the search
     bool near = false;   ///< such a pair was found, and is the only candidate
     QueryContext work = {};
     std::vector<NearTrianglePair> candidates = {};  ///< pairs that may be the nearest
 
     bool operator()(const NearTrianglePair& t) {
-      near = t.squared.upper <= enough;
+      near = t.squared.upper <= cutoff;
       if (near) candidates.clear();
       candidates.push_back(t);
       reach = std::min(reach, t.squared.upper * kOutward);
@@ -115,7 +115,7 @@ void ClosestSearch::take(std::vector<NearTrianglePair>&& candidates, double reac
 
 void ClosestSearch::walk() {
   adaptive_distance_traversal(
-      a_, b_, -1, work_, [this] { return Found{.reach = found_.reach, .enough = found_.enough}; },
+      a_, b_, -1, work_, [this] { return Found{.reach = found_.reach, .cutoff = found_.cutoff}; },
       [this](Found& piece) {
         found_.near = piece.near;
         if (piece.near) found_.candidates.clear();
@@ -146,7 +146,7 @@ double ClosestSearch::distance_so_far(Found& found, std::optional<Vec3d>& across
 /// than the slack, as for faces of many slivers at a constant distance. Pairs that the heights of
 /// the faces leave open are traversed.
 bool ClosestSearch::settle(Found& found) {
-  if (found.enough >= 0) return settle_near(found);
+  if (found.cutoff >= 0) return settle_near(found);
   std::optional<Vec3d> across;
   const double distance = distance_so_far(found, across);
   SlabOptions question{.apart = pruning_distance(distance), .hint = across};
@@ -200,7 +200,7 @@ void ClosestSearch::probe(const Probe& from, const PairLocalPart& to, double lim
     const DoubleTriangle own(corners), other(to.corners(t));
     ++found.work.triangle_pairs;
     const DistanceBounds bounds = triangle_distance_bounds(
-        from.of_a ? own : other, from.of_a ? other : own, found.reach, found.enough);
+        from.of_a ? own : other, from.of_a ? other : own, found.reach, found.cutoff);
     if (bounds.lower > found.reach) return true;
     return found({bounds, from.of_a ? from.triangle : t, from.of_a ? t : from.triangle}) &&
            found.reach > squared;
@@ -307,7 +307,7 @@ std::optional<ClosestPair> ClosestSearch::run(const std::optional<Vec3d>& separa
 }
 
 std::optional<ClosestPair> ClosestSearch::run_until_near() {
-  found_.enough = limit_ * limit_;
+  found_.cutoff = limit_ * limit_;
   walk();
   return found_.near ? decide() : std::nullopt;
 }

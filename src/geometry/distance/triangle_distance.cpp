@@ -58,10 +58,10 @@ double normal_slab(const DoubleTriangle& a, const DoubleTriangle& b) {
 }
 
 /// Returns the greatest bound by slabs perpendicular to the first triangle's edges, in its plane;
-/// that of two coplanar triangles is among these. Stops at the first above `enough`.
-double side_slabs(const DoubleTriangle& a, const DoubleTriangle& b, double enough) {
+/// that of two coplanar triangles is among these. Stops at the first above `cutoff`.
+double side_slabs(const DoubleTriangle& a, const DoubleTriangle& b, double cutoff) {
   double widest = 0;
-  for (std::size_t i = 0; i < 3 && widest <= enough; ++i)
+  for (std::size_t i = 0; i < 3 && widest <= cutoff; ++i)
     widest = std::max(widest, slab(cross(a.normal, a.corner[next_corner(i)] - a.corner[i]), a, b));
   return widest;
 }
@@ -284,7 +284,7 @@ DoubleTriangle::DoubleTriangle(const TriangleCorners& t)
 }
 
 DistanceBounds triangle_distance_bounds(const DoubleTriangle& a, const DoubleTriangle& b,
-                                        double enough, double near_enough) {
+                                        double cutoff, double near_enough) {
   // The points are off the triangles by a few roundings of the coordinates.
   const auto rounded_up = [&](double squared) {
     return square(std::sqrt(squared) + 0x1p-46 * std::max(a.size, b.size));
@@ -298,14 +298,14 @@ DistanceBounds triangle_distance_bounds(const DoubleTriangle& a, const DoubleTri
             squared <= near_enough && rounded_up(squared) <= near_enough)
           return {0, rounded_up(squared)};
   double lower = normal_slab(a, b);
-  if (lower > enough) return {lower, kUnknown};
+  if (lower > cutoff) return {lower, kUnknown};
   lower = std::max(lower, normal_slab(b, a));
-  if (lower > enough) return {lower, kUnknown};
+  if (lower > cutoff) return {lower, kUnknown};
   if (near_enough >= 0) {
-    lower = std::max(lower, side_slabs(a, b, enough));
-    if (lower > enough) return {lower, kUnknown};
-    lower = std::max(lower, side_slabs(b, a, enough));
-    if (lower > enough) return {lower, kUnknown};
+    lower = std::max(lower, side_slabs(a, b, cutoff));
+    if (lower > cutoff) return {lower, kUnknown};
+    lower = std::max(lower, side_slabs(b, a, cutoff));
+    if (lower > cutoff) return {lower, kUnknown};
   }
   Near near;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -314,7 +314,7 @@ DistanceBounds triangle_distance_bounds(const DoubleTriangle& a, const DoubleTri
     offer_foot(p[i], q, b.normal, [&](const Vec3d& foot) { near.offer(p[i], foot); });
   }
   lower = std::max(lower, slab(near.on_b - near.on_a, a, b));
-  if (lower > enough) return {lower, kUnknown};
+  if (lower > cutoff) return {lower, kUnknown};
   offer_crossings(a, b, [&](const Vec3d& of_a, const Vec3d& of_b) { near.offer(of_a, of_b); });
   offer_crossings(b, a, [&](const Vec3d& of_b, const Vec3d& of_a) { near.offer(of_a, of_b); });
   const auto settled = [&] { return rounded_up(near.squared) <= near_enough; };

@@ -32,10 +32,10 @@ struct DoubleTriangle {
 
 /// Returns bounds in double arithmetic. The lower one comes from a slab between the triangles, so
 /// it holds however wrong the guess of the nearest features. Once the lower bound is above
-/// `enough`, the upper one is not computed and is infinite; once the upper one is at most
+/// `cutoff`, the upper one is not computed and is infinite; once the upper one is at most
 /// `near_enough`, neither is improved.
 [[nodiscard]] DistanceBounds triangle_distance_bounds(const DoubleTriangle& a,
-                                                      const DoubleTriangle& b, double enough,
+                                                      const DoubleTriangle& b, double cutoff,
                                                       double near_enough = -1);
 
 /// The nearest points of two triangles; among equal distances the pair of features that comes

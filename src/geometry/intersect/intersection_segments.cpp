@@ -90,8 +90,8 @@ class CommonAreas {
 class SegmentFinder {
  public:
   SegmentFinder(const PairLocalPart& a, const PairLocalPart& b, std::size_t limit = kAll,
-                std::function<bool(const IntersectionSegment&)> enough = {})
-      : a_(a), b_(b), limit_(limit), enough_(std::move(enough)) {}
+                std::function<bool(const IntersectionSegment&)> is_last = {})
+      : a_(a), b_(b), limit_(limit), is_last_(std::move(is_last)) {}
 
   /// Processes a pair of triangles; each pair that has more than a point in common must be passed
   /// once. Returns whether to go on.
@@ -174,12 +174,12 @@ class SegmentFinder {
     found_.truncated = found_.truncated || found_.all.size() == limit_;
     if (found_.truncated) return;
     found_.all.push_back(piece);
-    found_.truncated = enough_ && enough_(piece);
+    found_.truncated = is_last_ && is_last_(piece);
   }
 
   const PairLocalPart &a_, &b_;
   std::size_t limit_;
-  std::function<bool(const IntersectionSegment&)> enough_;
+  std::function<bool(const IntersectionSegment&)> is_last_;
   std::uint64_t triangle_pairs_ = 0;
   IntersectionSegments found_;
   CommonAreas areas_;
@@ -268,9 +268,9 @@ SweepAndPrune sweep_of(const PairLocalPart& a, const OrientedBox& frame_a, const
 
 IntersectionSegments find_intersection_segments(
     const PartWithBvh& a, const PartWithBvh& b, std::size_t limit, QueryContext& work,
-    const std::function<bool(const IntersectionSegment&)>& enough) {
+    const std::function<bool(const IntersectionSegment&)>& is_last) {
   const PairLocalPart x(a, {}), y(b, b.placed.origin - a.placed.origin);
-  SegmentFinder finder(x, y, limit, enough);
+  SegmentFinder finder(x, y, limit, is_last);
   traverse_trees(x, y, finder, work);
   return finder.result(work);
 }

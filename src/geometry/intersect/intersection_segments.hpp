@@ -33,11 +33,11 @@ struct IntersectionSegments {
 /// to one side of b somewhere and to the other elsewhere; the segments then are those of the border
 /// where it does so. Touching from one side is no crossing, nor is a sheet that ends on the other.
 ///
-/// Exact. Stops after `limit` segments that cross outright, or after one of them for which `enough`
-/// holds. The cost is that of the contacts.
+/// Exact. Stops after `limit` segments that cross outright, or after one of them for which
+/// `is_last` holds. The cost is that of the contacts.
 [[nodiscard]] IntersectionSegments find_intersection_segments(
     const PartWithBvh& a, const PartWithBvh& b, std::size_t limit, QueryContext& work,
-    const std::function<bool(const IntersectionSegment&)>& enough = {});
+    const std::function<bool(const IntersectionSegment&)>& is_last = {});
 
 /// Returns the same segments in any order; cheap also for parts rotated against the coordinate
 /// axes. Both need an oriented box, and where needs_bvhs() says so a tree.

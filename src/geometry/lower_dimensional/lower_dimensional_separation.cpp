@@ -31,17 +31,17 @@ using primitive_pairs::GjkResult;
 using primitive_pairs::PrimitiveOperand;
 
 /// Adds the distance of two operands unless it is certainly not the least.
-void add_gap(const PrimitiveOperand& a, const PrimitiveOperand& b, double enough,
+void add_gap(const PrimitiveOperand& a, const PrimitiveOperand& b, double cutoff,
              MinDistanceBracket& least) {
   const GjkResult gap =
-      primitive_pairs::TorusDistanceSearch(a, b, std::min(enough, least.upper)).run();
+      primitive_pairs::TorusDistanceSearch(a, b, std::min(cutoff, least.upper)).run();
   least.add(gap.lower, gap.upper, gap.on_a, gap.on_b);
 }
 
-LowerDimensionalSeparation apart(const MinDistanceBracket& gap, double lower, double enough) {
+LowerDimensionalSeparation apart(const MinDistanceBracket& gap, double lower, double cutoff) {
   LowerDimensionalSeparation s;
   s.lower = lower;
-  s.upper = gap.lower >= enough ? gap.lower : gap.upper;
+  s.upper = gap.lower >= cutoff ? gap.lower : gap.upper;
   s.d = primitive_pairs::nominal_separation(s.lower, s.upper, 0);
   s.on_body = gap.on_a;
   s.on_other = gap.on_b;
@@ -92,7 +92,7 @@ double wholly_inside(const BodySimplices& pieces, const PrimitiveOperand& body) 
 
 LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBody& a,
                                                         const LowerDimensionalBody& b,
-                                                        double enough) {
+                                                        double cutoff) {
   const BodySimplices x(a, a.origin), y(b, a.origin);
   ExactMinDistance exact;
   for (const BodySimplex& p : x.simplices)
@@ -101,18 +101,18 @@ LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBo
   MinDistanceBracket least;
   least.add(exact);
   for (const PrimitiveOperand& arc : x.arcs) {
-    for (const BodySimplex& q : y.simplices) add_gap(arc, q.side(), enough, least);
-    for (const PrimitiveOperand& other : y.arcs) add_gap(arc, other, enough, least);
+    for (const BodySimplex& q : y.simplices) add_gap(arc, q.side(), cutoff, least);
+    for (const PrimitiveOperand& other : y.arcs) add_gap(arc, other, cutoff, least);
   }
   for (const PrimitiveOperand& arc : y.arcs)
-    for (const BodySimplex& p : x.simplices) add_gap(p.side(), arc, enough, least);
-  LowerDimensionalSeparation s = apart(least, std::max(0.0, least.lower), enough);
+    for (const BodySimplex& p : x.simplices) add_gap(p.side(), arc, cutoff, least);
+  LowerDimensionalSeparation s = apart(least, std::max(0.0, least.lower), cutoff);
   if (exact.touching()) s.lower = s.upper = s.d = 0;
   return s;
 }
 
 std::optional<LowerDimensionalSeparation> lower_dimensional_separation(
-    const LowerDimensionalBody& thin, const PlacedPrimitive& primitive, double enough) {
+    const LowerDimensionalBody& thin, const PlacedPrimitive& primitive, double cutoff) {
   PrimitiveOperand body;
   if (!body.read(primitive, thin.origin)) return std::nullopt;
   const bool solid = !body.flat();
@@ -122,7 +122,7 @@ std::optional<LowerDimensionalSeparation> lower_dimensional_separation(
   DeepestOfSimplices deepest;
   bool meets = false;
   const auto measure = [&](const PrimitiveOperand& piece) {
-    const double reach = std::min(enough, std::max(least.upper, 0.0));
+    const double reach = std::min(cutoff, std::max(least.upper, 0.0));
     const GjkResult gap = primitive_pairs::TorusDistanceSearch(piece, body, reach).run();
     least.add(gap.lower, gap.upper, gap.on_a, gap.on_b);
     if (gap.lower > 0 || !solid) return;
@@ -131,11 +131,11 @@ std::optional<LowerDimensionalSeparation> lower_dimensional_separation(
   };
   for (const BodySimplex& piece : pieces.simplices) measure(piece.side());
   for (const PrimitiveOperand& arc : pieces.arcs) measure(arc);
-  if (!meets) return apart(least, std::max(0.0, least.lower), enough);
+  if (!meets) return apart(least, std::max(0.0, least.lower), cutoff);
   // Without a point inside a touch, as far as this can tell.
   LowerDimensionalSeparation s = deepest.lower > 0
                                      ? meeting(deepest, body)
-                                     : apart(least, std::min(-deepest.upper, least.upper), enough);
+                                     : apart(least, std::min(-deepest.upper, least.upper), cutoff);
   if (deepest.lower > 0) s.wholly_inside = wholly_inside(pieces, body);
   s.depth_complete = deepest.complete;
   return s;
@@ -151,7 +151,7 @@ constexpr double kSnap = 2;
 constexpr int kMaxChords = 1024;
 
 /// The decisions are exact.
-void add_piece(const BodySimplex& piece, const PartWithBvh& mesh, double enough,
+void add_piece(const BodySimplex& piece, const PartWithBvh& mesh, double cutoff,
                ExactMinDistance& least) {
   const auto& nodes = mesh.tree->nodes();
   const PairLocalPart view(mesh, {});
@@ -160,7 +160,7 @@ void add_piece(const BodySimplex& piece, const PartWithBvh& mesh, double enough,
       [&](std::uint32_t i) { return squared_gap(piece.box, nodes[i].box.as<double>()); },
       [&](double squared) {
         return least.touching() || least.beyond(squared) ||
-               std::sqrt(squared) * (1 - 1e-14) > enough;
+               std::sqrt(squared) * (1 - 1e-14) > cutoff;
       },
       [&](std::uint32_t t) { least.offer(piece.corners(), view.corners(t)); });
 }
@@ -281,7 +281,7 @@ LowerDimensionalSeparation through_sheet(const lower_dimensional::SheetPiercing&
 LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBody& thin,
                                                         const PartWithBvh& mesh,
                                                         const DepthOptions& goal,
-                                                        QueryContext& work, double enough) {
+                                                        QueryContext& work, double cutoff) {
   const BodySimplices pieces(thin, mesh.placed.origin);
   const bool solid = mesh.placed.part->kind == PartKind::solid;
   const Vec3d back = (mesh.placed.origin - thin.origin).as<double>();
@@ -291,7 +291,7 @@ LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBo
   bool meets = false, all_within = true;
   for (const BodySimplex& piece : pieces.simplices) {
     ExactMinDistance own;
-    add_piece(piece, mesh, enough, solid ? own : exact);
+    add_piece(piece, mesh, cutoff, solid ? own : exact);
     if (!solid) continue;
     least.add(own);
     const bool within = !own.touching() && depth.holds(piece.corner[0]);
@@ -303,7 +303,7 @@ LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBo
   least.add(exact);
   for (const PrimitiveOperand& arc : pieces.arcs) {
     const PrimitiveMeshDistance gap =
-        primitive_pairs::operand_mesh_distance(arc, mesh, std::min(enough, least.upper));
+        primitive_pairs::operand_mesh_distance(arc, mesh, std::min(cutoff, least.upper));
     least.add(gap.lower, gap.upper, gap.on_primitive, gap.on_mesh);
     if (!solid) continue;
     const Vec3d start = arc.torus->nearest(arc.torus->centre());
@@ -325,8 +325,8 @@ LowerDimensionalSeparation lower_dimensional_separation(const LowerDimensionalBo
     // A body farther from the surface than the limit is no less inside.
     if (s.inside && all_within) s.wholly_inside = std::min(least.lower, -s.d);
   } else {
-    s.lower = std::max(0.0, std::min(least.lower, enough));
-    s.upper = std::min(least.upper, s.lower < enough ? least.upper : s.lower);
+    s.lower = std::max(0.0, std::min(least.lower, cutoff));
+    s.upper = std::min(least.upper, s.lower < cutoff ? least.upper : s.lower);
     s.on_body = least.on_a;
     s.on_other = least.on_b;
     s.d = (s.lower + s.upper) / 2;

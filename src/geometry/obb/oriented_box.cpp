@@ -129,8 +129,8 @@ void widen_by_box(SeparationBound& widest, const FaceBeside& pair) {
 }
 
 /// Widens by the vertices of the other part.
-void widen_by_vertices(SeparationBound& widest, const FaceBeside& pair, double enough) {
-  for (std::size_t i = 0; i < 3 && widest.lower < enough; ++i) {
+void widen_by_vertices(SeparationBound& widest, const FaceBeside& pair, double cutoff) {
+  for (std::size_t i = 0; i < 3 && widest.lower < cutoff; ++i) {
     const Vec3d& n = pair.of.frame->axis[i];
     const ProjectionInterval r =
         range_along(*pair.other.placed.part, pair.other.frame->vertices, n);
@@ -167,7 +167,7 @@ std::array<Vec3d, 3> orthonormal_axes(const Part& part) {
   return at_right_angles(largest_faces(part));
 }
 
-SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb& b, double enough) {
+SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb& b, double cutoff) {
   const Vec3d shift = (b.placed.origin - a.placed.origin).as<double>();
   const double reach = std::fabs(shift.x) + std::fabs(shift.y) + std::fabs(shift.z) +
                        magnitude(a.placed.part->box) + magnitude(b.placed.part->box);
@@ -177,10 +177,10 @@ SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb&
   SeparationBound boxes;
   for (const FaceBeside* pair : {&from_a, &from_b}) {
     widen_by_box(boxes, *pair);
-    if (boxes.lower >= enough + 1) return boxes;
+    if (boxes.lower >= cutoff + 1) return boxes;
   }
   SeparationBound gap;
-  for (const FaceBeside* pair : {&from_a, &from_b}) widen_by_vertices(gap, *pair, enough);
+  for (const FaceBeside* pair : {&from_a, &from_b}) widen_by_vertices(gap, *pair, cutoff);
   return gap;
 }
 

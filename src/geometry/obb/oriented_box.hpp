@@ -53,9 +53,9 @@ struct SeparationBound {
 };
 
 /// Returns the widest gap between two parts along the axes of either box. Tests boxes first and
-/// visits vertices only where the boxes leave the gap below `enough` grid units; stops at the first
+/// visits vertices only where the boxes leave the gap below `cutoff` grid units; stops at the first
 /// gap of at least that.
 [[nodiscard]] SeparationBound oriented_box_separation(const PartWithObb& a, const PartWithObb& b,
-                                                      double enough);
+                                                      double cutoff);
 
 }  // namespace strake::geometry

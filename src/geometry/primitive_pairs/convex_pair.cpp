@@ -12,7 +12,7 @@
 namespace strake::geometry::primitive_pairs {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Grid units: two that overlap by no more along some direction, and are no farther apart, touch as
 /// far as this can tell.
@@ -39,9 +39,9 @@ class OverlappingPair {
       return disjoint_separation(gap, gap.lower, gap.upper);
     DeepestPoint depth;
     bool deep_in_a = true;
-    depth.upper = -kNever;
+    depth.upper = -kInfinity;
     if (field_a_)
-      depth = maximise_depth(ConvexDepthOracle(a_, *field_a_), ConvexDomain{b_}, -kNever);
+      depth = maximise_depth(ConvexDepthOracle(a_, *field_a_), ConvexDomain{b_}, -kInfinity);
     if (field_b_) {
       const DeepestPoint other =
           maximise_depth(ConvexDepthOracle(b_, *field_b_), ConvexDomain{a_}, depth.lower);
@@ -98,15 +98,15 @@ class OverlappingPair {
 }  // namespace
 
 std::optional<PrimitiveSeparation> convex_separation(const PlacedPrimitive& a,
-                                                     const PlacedPrimitive& b, double enough) {
+                                                     const PlacedPrimitive& b, double cutoff) {
   const auto origin = snap(a.placement->translation);
   if (!origin) return std::nullopt;
   const auto x = convex_body(a, *origin), y = convex_body(b, *origin);
   if (!x || !y) return std::nullopt;
-  const GjkResult gap = gjk_distance(*x, *y, enough);
+  const GjkResult gap = gjk_distance(*x, *y, cutoff);
   PrimitiveSeparation s;
   if (gap.lower > 0) {
-    s = disjoint_separation(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
+    s = disjoint_separation(gap, gap.lower, gap.lower >= cutoff ? gap.lower : gap.upper);
   } else {
     const OverlappingPair meeting(a, *x, b, *y, *origin);
     if (!meeting.measurable()) return std::nullopt;

@@ -23,8 +23,8 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// does not depend on the way.
 class MeshDistanceSearch {
  public:
-  MeshDistanceSearch(const PrimitiveOperand& primitive, const PartWithBvh& mesh, double enough)
-      : primitive_(primitive), mesh_(mesh), enough_(enough) {
+  MeshDistanceSearch(const PrimitiveOperand& primitive, const PartWithBvh& mesh, double cutoff)
+      : primitive_(primitive), mesh_(mesh), cutoff_(cutoff) {
     for (const SweptArc& arc : primitive.arcs()) hulls_.push_back(primitive.hull(arc));
     box_ = empty_box<double>();
     for (const ConvexBody& hull : hulls_)
@@ -45,7 +45,7 @@ class MeshDistanceSearch {
   }
 
  private:
-  [[nodiscard]] double reach() const { return std::min(best_.upper, enough_); }
+  [[nodiscard]] double reach() const { return std::min(best_.upper, cutoff_); }
 
   /// No triangle of the node is nearer.
   [[nodiscard]] double bound(const TriangleBvh::Node& node) const {
@@ -72,7 +72,7 @@ class MeshDistanceSearch {
 
   const PrimitiveOperand& primitive_;
   const PartWithBvh& mesh_;
-  double enough_;
+  double cutoff_;
   std::vector<ConvexBody> hulls_;
   Box3d box_;
   PrimitiveMeshDistance best_;
@@ -81,8 +81,8 @@ class MeshDistanceSearch {
 }  // namespace
 
 PrimitiveMeshDistance operand_mesh_distance(const PrimitiveOperand& side, const PartWithBvh& mesh,
-                                            double enough) {
-  return MeshDistanceSearch(side, mesh, enough).run();
+                                            double cutoff) {
+  return MeshDistanceSearch(side, mesh, cutoff).run();
 }
 
 }  // namespace strake::geometry::primitive_pairs
@@ -91,10 +91,10 @@ namespace strake::geometry {
 
 std::optional<PrimitiveMeshDistance> primitive_mesh_distance(const PlacedPrimitive& primitive,
                                                              const PartWithBvh& mesh,
-                                                             double enough) {
+                                                             double cutoff) {
   primitive_pairs::PrimitiveOperand side;
   if (!side.read(primitive, mesh.placed.origin)) return std::nullopt;
-  return primitive_pairs::operand_mesh_distance(side, mesh, enough);
+  return primitive_pairs::operand_mesh_distance(side, mesh, cutoff);
 }
 
 }  // namespace strake::geometry

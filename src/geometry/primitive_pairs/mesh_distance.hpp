@@ -9,6 +9,6 @@ namespace strake::geometry::primitive_pairs {
 /// Returns the distance of one body, read about the mesh's origin, to the mesh's triangles: see
 /// primitive_mesh_distance().
 [[nodiscard]] PrimitiveMeshDistance operand_mesh_distance(const PrimitiveOperand& side,
-                                                          const PartWithBvh& mesh, double enough);
+                                                          const PartWithBvh& mesh, double cutoff);
 
 }  // namespace strake::geometry::primitive_pairs

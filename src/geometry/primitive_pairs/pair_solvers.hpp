@@ -17,12 +17,12 @@ namespace strake::geometry::primitive_pairs {
 /// for two without thickness that meet.
 [[nodiscard]] std::optional<PrimitiveSeparation> convex_separation(const PlacedPrimitive& a,
                                                                    const PlacedPrimitive& b,
-                                                                   double enough);
+                                                                   double cutoff);
 
 /// Returns the separation of two primitives, at least one of them a torus; nothing for what
 /// Torus::of() and convex_body() leave out, and for bodies without thickness that meet the other.
 [[nodiscard]] std::optional<PrimitiveSeparation> torus_separation(const PlacedPrimitive& a,
                                                                   const PlacedPrimitive& b,
-                                                                  double enough);
+                                                                  double cutoff);
 
 }  // namespace strake::geometry::primitive_pairs

@@ -6,15 +6,15 @@
 namespace strake::geometry {
 
 std::optional<PrimitiveSeparation> primitive_separation(const PlacedPrimitive& a,
-                                                        const PlacedPrimitive& b, double enough) {
+                                                        const PlacedPrimitive& b, double cutoff) {
   if (auto s = primitive_pairs::closed_form(a, b)) return s;
-  return iterative_separation(a, b, enough);
+  return iterative_separation(a, b, cutoff);
 }
 
 std::optional<PrimitiveSeparation> iterative_separation(const PlacedPrimitive& a,
-                                                        const PlacedPrimitive& b, double enough) {
-  if (auto s = primitive_pairs::convex_separation(a, b, enough)) return s;
-  return primitive_pairs::torus_separation(a, b, enough);
+                                                        const PlacedPrimitive& b, double cutoff) {
+  if (auto s = primitive_pairs::convex_separation(a, b, cutoff)) return s;
+  return primitive_pairs::torus_separation(a, b, cutoff);
 }
 
 }  // namespace strake::geometry

@@ -49,16 +49,16 @@ PrimitiveSeparation meeting(const PrimitiveOperand& a, const PrimitiveOperand& b
 }  // namespace
 
 std::optional<PrimitiveSeparation> torus_separation(const PlacedPrimitive& a,
-                                                    const PlacedPrimitive& b, double enough) {
+                                                    const PlacedPrimitive& b, double cutoff) {
   const auto origin = snap(a.placement->translation);
   PrimitiveOperand x, y;
   if (!origin || !x.read(a, *origin) || !y.read(b, *origin) || !(x.torus || y.torus))
     return std::nullopt;
-  TorusDistanceSearch search(x, y, enough);
+  TorusDistanceSearch search(x, y, cutoff);
   const GjkResult gap = search.run();
   if (gap.lower > 0) {
     PrimitiveSeparation s =
-        disjoint_separation(gap, gap.lower, gap.lower >= enough ? gap.lower : gap.upper);
+        disjoint_separation(gap, gap.lower, gap.lower >= cutoff ? gap.lower : gap.upper);
     s.sheet_a = x.flat();
     s.sheet_b = y.flat();
     return s;

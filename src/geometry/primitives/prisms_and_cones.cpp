@@ -112,7 +112,7 @@ struct Snout {
     const double wanted = circle * (end.slope_x * a.cos + end.slope_y * a.sin);
     if (wanted == 0) return 0;
     const double rises = rise(end, a);
-    return rises > 0 ? wanted / rises : kNever;
+    return rises > 0 ? wanted / rises : kUnboundedSag;
   }
   [[nodiscard]] double radius(double cut) const {
     return p.bottom_radius + cut * (p.top_radius - p.bottom_radius);
@@ -145,7 +145,7 @@ struct Snout {
         {{(against * y + half * x) / square, (against * x - half * y) / square},
          {(against * y - half * x) / square, (against * x + half * y) / square}}};
   }
-  static constexpr double kNever = 1e300;
+  static constexpr double kUnboundedSag = 1e300;
 
   /// Returns the greatest distance of the true surface from the facet between two generators;
   /// infinite where an end plane runs too much along the surface. A section of the facet across the
@@ -162,7 +162,7 @@ struct Snout {
       if ((at_top ? p.top_radius : p.bottom_radius) == 0) continue;  // the apex
       const auto cut_at = [&](const SinCos& g) { return at_top ? top_cut(g) : bottom_cut(g); };
       const double weight = rise(end, t);
-      if (!(weight > 0)) return kNever;
+      if (!(weight > 0)) return kUnboundedSag;
       const double widest = std::max({radius(cut_at(a)), radius(cut_at(b)), radius(cut_at(t))});
       const Vec3d from = point(a, cut_at(a)), to = point(b, cut_at(b)), pole = point(t, cut_at(t));
       // The outline is a conic. As a rational Bezier curve (Farin, Curves and Surfaces for CAGD)
@@ -254,7 +254,7 @@ Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target) {
   const double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)
                                     : sag_of(snout, angles);
   if (widest(snout, angles) < 0) return fault(kCross);
-  if (sag == Snout::kNever) return fault("an end plane of a snout runs along its skin");
+  if (sag == Snout::kUnboundedSag) return fault("an end plane of a snout runs along its skin");
   std::vector<Vec3d> lower, upper;
   for (const SinCos& a : angles) {
     lower.push_back(snout.point(a, snout.bottom_cut(a)));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 constexpr float kNothing = -kEndless;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxAcross = 4096;
 /// Rows whose polygons are listed together, and rows that are painted as one item.
 constexpr std::size_t kListedRows = 64;
@@ -123,7 +123,7 @@ class Planes {
         std::fabs(n[0] * direction_.x + n[1] * direction_.y + n[2] * direction_.z);
     // Nearly edge-on, rounding of the normal would change the slope by more than kShare.
     const double size = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    if (!(facing * facing > 1e-4 * size * squared_)) return {.behind = kNever};
+    if (!(facing * facing > 1e-4 * size * squared_)) return {.behind = kInfinity};
     return {-dot(along_u_) / w, -dot(along_v_) / w, contact_ * sum * squared_ / facing};
   }
 

@@ -39,19 +39,19 @@ void ImportReport::feed(std::string_view bytes) {
       line_.clear();
     }
     if (!too_long_) line_ += bytes.substr(0, end);
-    if (end < bytes.size()) take_line();
+    if (end < bytes.size()) read_line();
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
   }
 }
 
-void ImportReport::end() { take_line(); }
+void ImportReport::end() { read_line(); }
 
 void ImportReport::note_odd() {
   facts_.diagnostics.add(Severity::warning, kOdd,
                          "a line of the importer's report cannot be understood", {});
 }
 
-void ImportReport::take_line() {
+void ImportReport::read_line() {
   const std::string line = std::exchange(line_, {});
   if (std::exchange(too_long_, false)) return note_odd();
   if (trimmed(line, " \t\r").empty()) return;
@@ -65,9 +65,9 @@ void ImportReport::take_line() {
       fault_ = {short_text(error, kLongestMessage),
                 short_text(document->root()["mend"], kLongestMessage)};
   } else if (severity.is_string()) {
-    take_diagnostic(document->root(), severity.text_value());
+    read_diagnostic(document->root(), severity.text_value());
   } else if (made_by.is_string()) {
-    take_end(document->root());
+    read_end(document->root());
   } else if (const std::optional<double> done = progress.number()) {
     if (*done > progress_) progress_ = std::min(*done, 1.0);
   } else {
@@ -75,7 +75,7 @@ void ImportReport::take_line() {
   }
 }
 
-void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view severity) {
+void ImportReport::read_diagnostic(const gltf::JsonValue& line, std::string_view severity) {
   const std::optional<Severity> known = severity_of(severity);
   if (!known) return note_odd();
   std::string code = line["code"].text_value();
@@ -89,7 +89,7 @@ void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view
                          short_text(line["object"], kLongestName));
 }
 
-void ImportReport::take_end(const gltf::JsonValue& line) {
+void ImportReport::read_end(const gltf::JsonValue& line) {
   complete_ = true;
   facts_.made_by = short_text(line["made_by"], kLongestName);
   facts_.format = short_text(line["format"], kLongestName);

@@ -48,9 +48,9 @@ class ImportReport {
   [[nodiscard]] SceneFacts take_facts() { return std::move(facts_); }
 
  private:
-  void take_line();
-  void take_diagnostic(const gltf::JsonValue& line, std::string_view severity);
-  void take_end(const gltf::JsonValue& line);
+  void read_line();
+  void read_diagnostic(const gltf::JsonValue& line, std::string_view severity);
+  void read_end(const gltf::JsonValue& line);
   void note_odd();
 
   std::string line_;

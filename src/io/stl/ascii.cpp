@@ -18,7 +18,7 @@ bool is_word(std::string_view text, std::string_view word) {
                                                   [](char a, char b) { return lower(a) == b; });
 }
 
-std::string_view take_word(std::string_view& line) {
+std::string_view read_word(std::string_view& line) {
   line = trimmed(line, kBlanks);
   const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view word = line.substr(0, length);
@@ -103,7 +103,7 @@ void AsciiParser::cut_off() {
 }
 
 void AsciiParser::line(std::string_view line) {
-  const std::string_view word = take_word(line);
+  const std::string_view word = read_word(line);
   if (word.empty()) return;
   if (is_word(word, "vertex")) return vertex(line);
   if (is_word(word, "endloop")) return end_loop();
@@ -120,7 +120,7 @@ void AsciiParser::line(std::string_view line) {
 
 void AsciiParser::cut_line(std::string_view line) {
   constexpr std::string_view kHead = "solid";
-  const std::string_view word = take_word(line);
+  const std::string_view word = read_word(line);
   if (!open_ && !word.empty() && is_word(word, kHead.substr(0, word.size()))) begin("");
 }
 

@@ -20,7 +20,7 @@ constexpr double kTextMm = 2.2, kMargin = 2.5;
 std::string shortened(std::string_view text, std::size_t limit) {
   std::vector<std::string_view> characters;
   for (std::string_view rest = text; !rest.empty();)
-    characters.push_back(take_character(rest).bytes);
+    characters.push_back(decode_character(rest).bytes);
   if (characters.size() <= limit) return std::string(text);
   constexpr std::string_view kGap = "...";
   const std::size_t kept = limit - std::min(limit, kGap.size()), front = (kept + 1) / 2;

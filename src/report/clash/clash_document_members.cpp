@@ -108,11 +108,11 @@ std::string EntryReader::where() const {
 DocumentEntry EntryReader::next() {
   if (json_.kind() != Kind::object) throw DocumentFault{where(), "is no object"};
   DocumentEntry entry;
-  json_.members([&](std::string_view key) { take_member(key, entry); });
+  json_.members([&](std::string_view key) { read_member(key, entry); });
   return entry;
 }
 
-void EntryReader::take_member(std::string_view key, DocumentEntry& entry) {
+void EntryReader::read_member(std::string_view key, DocumentEntry& entry) {
   if (key == "a")
     entry.a = object("a");
   else if (key == "b")

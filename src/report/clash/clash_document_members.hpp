@@ -96,7 +96,7 @@ class EntryReader {
  private:
   [[nodiscard]] std::string where() const;
   [[nodiscard]] DocumentEntry next();
-  void take_member(std::string_view key, DocumentEntry& entry);
+  void read_member(std::string_view key, DocumentEntry& entry);
   // These read the value of a member, which comes next.
   [[nodiscard]] std::string_view text(const char* key);
   [[nodiscard]] double millimetres(const char* key);

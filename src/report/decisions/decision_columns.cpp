@@ -29,7 +29,7 @@ std::string headings_of(const CsvRecord& head) {
 std::string in_quotes_cut(std::string_view text) {
   constexpr std::size_t kMaxBytes = 60;
   std::string_view rest = text;
-  while (!rest.empty() && text.size() - rest.size() < kMaxBytes) (void)take_character(rest);
+  while (!rest.empty() && text.size() - rest.size() < kMaxBytes) (void)decode_character(rest);
   const std::string_view shown = text.substr(0, text.size() - rest.size());
   return rest.empty() ? in_quotes(text) : in_quotes(std::string(shown) + "…");
 }

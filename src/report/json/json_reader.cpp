@@ -117,7 +117,7 @@ bool JsonReader::next(char closing) {
   return false;
 }
 
-void JsonReader::take_key() {
+void JsonReader::read_key() {
   key_ = text();
   expect(':');
 }
@@ -141,7 +141,7 @@ std::string_view JsonReader::text() {
       break;
     } else if (*at_ == '\\') {
       spill();
-      take_escape();
+      read_escape();
       first = at_;
     } else if (static_cast<unsigned char>(*at_) < 0x20) {
       fail(Fault::What::broken);
@@ -159,20 +159,20 @@ std::string_view JsonReader::text() {
   return found;
 }
 
-void JsonReader::take_escape() {
+void JsonReader::read_escape() {
   constexpr std::string_view kNames = "\"\\/bfnrt", kMeant = "\"\\/\b\f\n\r\t";
   ++at_;
   const int c = peek();
   if (c == 'u') {
     ++at_;
-    std::uint32_t code = take_hex();
+    std::uint32_t code = read_hex();
     if (code >= 0xDC00 && code < 0xE000) fail(Fault::What::broken);
     if (code >= 0xD800 && code < 0xDC00) {
       for (const char expected : {'\\', 'u'}) {
         if (peek() != expected) fail_at_next();
         ++at_;
       }
-      const std::uint32_t low = take_hex();
+      const std::uint32_t low = read_hex();
       if (low < 0xDC00 || low >= 0xE000) fail(Fault::What::broken);
       code = 0x10000 + ((code - 0xD800) << 10U) + (low - 0xDC00);
     }
@@ -185,7 +185,7 @@ void JsonReader::take_escape() {
   ++at_;
 }
 
-std::uint32_t JsonReader::take_hex() {
+std::uint32_t JsonReader::read_hex() {
   std::uint32_t code = 0;
   for (int i = 0; i < 4; ++i) {
     const int c = peek();
@@ -200,7 +200,7 @@ std::uint32_t JsonReader::take_hex() {
   return code;
 }
 
-std::string_view JsonReader::take_number() {
+std::string_view JsonReader::read_number() {
   if (kind() != Kind::number) fail(Fault::What::broken);
   const char* first = at_;
   while (at_ != end_ && in_number(*at_)) ++at_;
@@ -215,14 +215,14 @@ std::string_view JsonReader::take_number() {
 }
 
 double JsonReader::number() {
-  const std::string_view found = take_number();
+  const std::string_view found = read_number();
   double value = 0;
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::infinity();
   return value;
 }
 
-std::string_view JsonReader::take_word() {
+std::string_view JsonReader::read_word() {
   constexpr std::size_t kLongest = 5;
   spilled_.clear();
   while (peek() != kEnd && in_word(*at_) && spilled_.size() < kLongest) spilled_ += *at_++;
@@ -240,11 +240,11 @@ void JsonReader::skip() {
       (void)text();
       return;
     case Kind::number:
-      (void)take_number();
+      (void)read_number();
       return;
     case Kind::boolean:
     case Kind::null:
-      (void)take_word();
+      (void)read_word();
   }
 }
 
@@ -275,11 +275,11 @@ void JsonReader::copy(std::string& out) {
       append_json_string(out, text());
       return;
     case Kind::number:
-      out += take_number();
+      out += read_number();
       return;
     case Kind::boolean:
     case Kind::null:
-      out += take_word();
+      out += read_word();
   }
 }
 

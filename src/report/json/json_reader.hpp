@@ -35,7 +35,7 @@ class JsonReader {
   template <class Member>
   void members(Member&& member) {
     for (bool more = open('{', '}'); more; more = next('}')) {
-      take_key();
+      read_key();
       member(std::string_view(key_));
     }
   }
@@ -63,11 +63,11 @@ class JsonReader {
   [[nodiscard]] bool open(char bracket, char closing);
   [[nodiscard]] bool next(char closing);
   void expect(char c);
-  void take_key();
-  void take_escape();
-  [[nodiscard]] std::uint32_t take_hex();
-  [[nodiscard]] std::string_view take_number();
-  [[nodiscard]] std::string_view take_word();
+  void read_key();
+  void read_escape();
+  [[nodiscard]] std::uint32_t read_hex();
+  [[nodiscard]] std::string_view read_number();
+  [[nodiscard]] std::string_view read_word();
   /// Returns the number of line ends in the buffer up to there.
   [[nodiscard]] std::uint64_t lines_up_to(const char* at) const;
   [[noreturn]] void fail(Fault::What what) const;

@@ -47,7 +47,7 @@ std::size_t columns_of(std::uint32_t code) {
 std::size_t columns_in(std::string_view text) {
   std::size_t columns = 0;
   while (!text.empty()) {
-    columns += columns_of(take_character(text).code);
+    columns += columns_of(decode_character(text).code);
   }
   return columns;
 }

@@ -104,7 +104,7 @@ std::optional<std::size_t> line_of_other_encoding(std::string_view text) {
   if (is_utf8(text)) return std::nullopt;
   std::size_t line = 1;
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     if (c.length == 0) break;
     if (c.bytes == "\n") ++line;
   }

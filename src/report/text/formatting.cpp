@@ -134,7 +134,7 @@ struct ShownCharacter {
 std::vector<ShownCharacter> shown_characters(std::string_view text) {
   std::vector<ShownCharacter> shown;
   while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
+    const DecodedCharacter c = decode_character(text);
     shown.push_back(is_printable(c) ? ShownCharacter{c.bytes, columns_of(c.code)}
                                     : ShownCharacter{"?"});
   }

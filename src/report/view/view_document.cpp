@@ -17,8 +17,8 @@
 #include "drawing/neutral/neutral_rows.hpp"
 #include "report/document/document_reader.hpp"
 #include "report/json/json_reader.hpp"
+#include "report/view/view_details.hpp"
 #include "report/view/view_line_reader.hpp"
-#include "report/view/view_rest.hpp"
 
 namespace strake::report {
 namespace {
@@ -33,14 +33,14 @@ constexpr int kMaxViewDepth = 8;
 /// Reads the text of a document: pieces one by one; the rest is small.
 class ViewDocumentReader {
  public:
-  /// In a binary document the lines follow the text, as rows. `rest` takes what a comparison does
-  /// not need; null: nothing does.
-  ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document, ViewRest* rest)
+  /// In a binary document the lines follow the text, as rows. `details` takes what a comparison
+  /// does not need; null: nothing does.
+  ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document, ViewDetails* details)
       : json_(text, kMaxViewDepth),
         binary_(binary),
         lines_key_(binary ? "rows" : "pieces"),
         document_(document),
-        rest_(rest) {}
+        details_(details) {}
 
   void read_text() {
     if (json_.kind() == Kind::object)
@@ -63,9 +63,9 @@ class ViewDocumentReader {
   void check() {
     check_objects();
     check_counts();
-    if (rest_ == nullptr) return;
+    if (details_ == nullptr) return;
     check_curves();
-    rest_->counts = std::move(counted_);
+    details_->counts = std::move(counted_);
   }
 
  private:
@@ -88,12 +88,12 @@ class ViewDocumentReader {
       objects("far_objects", document_.far_objects);
     else if (key == lines_key_)
       lines();
-    else if (rest_ != nullptr && key == "curves")
-      take_curves(json_, *rest_);
-    else if (rest_ != nullptr && key == "defects")
-      take_defects(json_, *rest_);
-    else if (rest_ != nullptr && key == "files_ending_early")
-      take_cut_files(json_, *rest_);
+    else if (details_ != nullptr && key == "curves")
+      read_curves(json_, *details_);
+    else if (details_ != nullptr && key == "defects")
+      read_defects(json_, *details_);
+    else if (details_ != nullptr && key == "files_ending_early")
+      read_cut_files(json_, *details_);
     else if (key == "pieces" || key == "rows")
       throw DocumentFault{"the document", "has \"" + std::string(key) +
                                               "\" beside or instead of its " + lines_key_};
@@ -137,12 +137,12 @@ class ViewDocumentReader {
   }
 
   void rest_of_sheet(const std::string& name) {
-    if (rest_ != nullptr && name == "scale_text")
-      rest_->scale_text = fields_.text("sheet", name);
-    else if (rest_ != nullptr && name == "title")
-      rest_->title = fields_.text("sheet", name);
-    else if (rest_ != nullptr && name == "frame_paper_mm")
-      rest_->frame = take_frame(json_);
+    if (details_ != nullptr && name == "scale_text")
+      details_->scale_text = fields_.text("sheet", name);
+    else if (details_ != nullptr && name == "title")
+      details_->title = fields_.text("sheet", name);
+    else if (details_ != nullptr && name == "frame_paper_mm")
+      details_->frame = read_frame(json_);
     else
       json_.skip();
   }
@@ -198,7 +198,7 @@ class ViewDocumentReader {
 
   void take(const ReadPiece& piece) {
     ++of_state_.at(static_cast<std::size_t>(piece.state));
-    if (rest_ != nullptr) return rest_->add(piece, list_item());
+    if (details_ != nullptr) return details_->add(piece, list_item());
     const auto rounded = [](const std::array<double, 2>& mm) {
       return std::array<float, 2>{static_cast<float>(mm[0]), static_cast<float>(mm[1])};
     };
@@ -213,11 +213,11 @@ class ViewDocumentReader {
   }
 
   void check_curves() const {
-    for (const hlr::CurvedEdge& edge : rest_->curves.edges)
-      if (edge.curve >= rest_->curves.all.size())
+    for (const hlr::CurvedEdge& edge : details_->curves.edges)
+      if (edge.curve >= details_->curves.all.size())
         throw contradiction("the document", "has a line of curve " + std::to_string(edge.curve) +
                                                 ", but there are " +
-                                                std::to_string(rest_->curves.all.size()));
+                                                std::to_string(details_->curves.all.size()));
   }
 
   void check_objects() const {
@@ -234,9 +234,9 @@ class ViewDocumentReader {
     };
     for (std::size_t p = 0; p < document_.pieces.size(); ++p)
       check_object(p, std::max(document_.pieces[p].object, document_.pieces[p].other));
-    if (rest_ == nullptr) return;
-    for (std::size_t l = 0; l < rest_->lines.size(); ++l)
-      check_object(l, model::index(std::max(rest_->lines[l].object, rest_->lines[l].other)));
+    if (details_ == nullptr) return;
+    for (std::size_t l = 0; l < details_->lines.size(); ++l)
+      check_object(l, model::index(std::max(details_->lines[l].object, details_->lines[l].other)));
   }
 
   void check_counts() const {
@@ -261,7 +261,7 @@ class ViewDocumentReader {
   bool binary_;
   std::string lines_key_;
   ViewDocument& document_;
-  ViewRest* rest_;
+  ViewDetails* details_;
   std::array<std::uint64_t, drawing::kLineStates> of_state_{};
   std::set<std::string, std::less<>> met_;
   std::map<std::string, std::uint64_t> counted_;
@@ -293,7 +293,7 @@ class FirstBytes : public std::streambuf {
   std::array<char, 65536> buffer_{};
 };
 
-void read_binary(ViewDocument& document, ViewRest* rest, std::istream& in) {
+void read_binary(ViewDocument& document, ViewDetails* details, std::istream& in) {
   std::array<char, drawing::kViewMagic.size()> magic{};
   in.read(magic.data(), magic.size());
   if (std::string_view(magic.data(), magic.size()) != drawing::kViewMagic)
@@ -306,24 +306,24 @@ void read_binary(ViewDocument& document, ViewRest* rest, std::istream& in) {
   checksum.add({reinterpret_cast<const char*>(&size), sizeof size});
   FirstBytes first(in, size, checksum);
   std::istream text(&first);
-  ViewDocumentReader reader(text, true, document, rest);
+  ViewDocumentReader reader(text, true, document, details);
   reader.read_text();
   if (first.left() > 0) throw contradiction("the document", "ends before its rows begin");
   reader.read_rows(in, checksum);
   reader.check();
 }
 
-void read_into(ViewDocument& document, ViewRest* rest, std::istream& in) {
-  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, rest, in);
-  ViewDocumentReader reader(in, false, document, rest);
+void read_into(ViewDocument& document, ViewDetails* details, std::istream& in) {
+  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, details, in);
+  ViewDocumentReader reader(in, false, document, details);
   reader.read_text();
   reader.check();
 }
 
-Result<ViewDocument> parse(std::istream& in, const std::string& name, ViewRest* rest) {
+Result<ViewDocument> parse(std::istream& in, const std::string& name, ViewDetails* details) {
   ViewDocument document;
   document.name = name;
-  const Status status = read_guarded(name, kView, [&] { read_into(document, rest, in); });
+  const Status status = read_guarded(name, kView, [&] { read_into(document, details, in); });
   if (!status) return status.error();
   return document;
 }
@@ -335,8 +335,8 @@ Result<ViewDocument> parse_view_document(std::istream& in, const std::string& na
 }
 
 Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name,
-                                         ViewRest& rest) {
-  return parse(in, name, &rest);
+                                         ViewDetails& details) {
+  return parse(in, name, &details);
 }
 
 Result<ViewDocument> read_view_document(const std::filesystem::path& file) {

@@ -16,7 +16,7 @@
 #include "drawing/neutral/neutral_rows.hpp"
 #include "hlr/results/defect_codes.hpp"
 #include "report/document/document_reader.hpp"
-#include "report/view/view_rest.hpp"
+#include "report/view/view_details.hpp"
 #include "report/view/view_settings_reader.hpp"
 
 namespace strake::report {
@@ -82,10 +82,10 @@ Hash128 hash_of_text(const std::string& text) {
 }
 
 /// What a document of these counts says of the objects and of the work.
-void read_counts(const ViewRest& rest, drawing::NeutralDrawing& drawing) {
+void read_counts(const ViewDetails& details, drawing::NeutralDrawing& drawing) {
   const auto of = [&](const std::string& name) {
-    const auto found = rest.counts.find(name);
-    return found == rest.counts.end() ? 0 : found->second;
+    const auto found = details.counts.find(name);
+    return found == details.counts.end() ? 0 : found->second;
   };
   hlr::Account& account = drawing.account;
   for (std::size_t f = 1; f < hlr::kFates; ++f) {
@@ -122,29 +122,29 @@ void check_sheet(const drawing::NeutralDrawing& drawing) {
   }
 }
 
-ViewDrawing assemble(ViewDocument&& document, ViewRest&& rest) {
+ViewDrawing assemble(ViewDocument&& document, ViewDetails&& details) {
   ViewDrawing made;
   drawing::NeutralDrawing& drawing = made.drawing;
   read_view_settings(document.settings, drawing);
-  drawing.title = rest.title.empty() ? drawing::title_of(drawing.view_name, drawing.view)
-                                     : std::move(rest.title);
-  if (rest.scale_text.empty()) throw missing_key("sheet", "scale_text");
+  drawing.title = details.title.empty() ? drawing::title_of(drawing.view_name, drawing.view)
+                                        : std::move(details.title);
+  if (details.scale_text.empty()) throw missing_key("sheet", "scale_text");
   drawing.sheet = {document.width_mm, document.height_mm, document.scale,
-                   std::move(rest.scale_text)};
-  drawing.frame = rest.frame;
+                   std::move(details.scale_text)};
+  drawing.frame = details.frame;
   drawing.hash = hash_of_text(document.hash);
-  drawing.lines = std::move(rest.lines);
-  drawing.curves = std::move(rest.curves);
+  drawing.lines = std::move(details.lines);
+  drawing.curves = std::move(details.curves);
   check_sheet(drawing);
-  read_counts(rest, drawing);
+  read_counts(details, drawing);
 
   DocumentModel model(made.model);
-  for (const std::string& label : rest.cut_files) model.add_cut_file(label);
+  for (const std::string& label : details.cut_files) model.add_cut_file(label);
   for (const ViewObject& object : document.objects) static_cast<void>(model.add(object));
   for (const ViewObject& object : document.far_objects)
     drawing.far_left_out.push_back(model.add(object));
   std::vector<std::pair<model::ObjectId, hlr::Fate>> fates;
-  for (const ViewDefect& defect : rest.defects) {
+  for (const ViewDefect& defect : details.defects) {
     const model::ObjectId object = model.add(defect.object);
     const auto fate = enum_by_name<hlr::Fate>(defect.fate, drawing::fate_name);
     if (!fate) throw wrong_type("defects", "fate", "fate that this version knows");
@@ -176,12 +176,12 @@ bool is_view_document(const std::filesystem::path& file) {
 }
 
 Result<ViewDrawing> parse_view_drawing(std::istream& in, const std::string& name) {
-  ViewRest rest;
-  Result<ViewDocument> document = parse_view_document(in, name, rest);
+  ViewDetails details;
+  Result<ViewDocument> document = parse_view_document(in, name, details);
   if (!document) return document.error();
   ViewDrawing made;
-  const Status status =
-      read_guarded(name, kDrawing, [&] { made = assemble(std::move(*document), std::move(rest)); });
+  const Status status = read_guarded(
+      name, kDrawing, [&] { made = assemble(std::move(*document), std::move(details)); });
   if (!status) return status.error();
   return made;
 }

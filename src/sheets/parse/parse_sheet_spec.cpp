@@ -444,7 +444,7 @@ class SheetSetParser {
     // As the name of a folder these would be that of another one.
     if (name == "." || name == "..") return false;
     while (!name.empty()) {
-      const TakenCharacter c = take_character(name);
+      const DecodedCharacter c = decode_character(name);
       if (!is_printable(c) || std::string_view("/\\:*?\"<>|{}").find(c.bytes) != std::string::npos)
         return false;
     }

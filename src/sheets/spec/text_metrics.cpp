@@ -21,7 +21,7 @@ std::string on_one_line(std::string text) {
 double text_width(std::string_view text) {
   const drawing::LetterWidths widths;
   double width = 0;
-  while (!text.empty()) width += widths.of(take_character(text));
+  while (!text.empty()) width += widths.of(decode_character(text));
   return width * kFontSize;
 }
 
@@ -98,7 +98,7 @@ Text cut_to_width(Text text, double width_mm) {
   double width = 0;
   std::size_t kept = 0;
   while (!rest.empty()) {
-    width += widths.of(take_character(rest)) * kFontSize;
+    width += widths.of(decode_character(rest)) * kFontSize;
     if (width > room) break;
     kept = text.text.size() - rest.size();
   }

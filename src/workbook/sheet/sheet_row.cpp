@@ -41,7 +41,7 @@ void append_cell_text(std::string& out, std::string_view raw) {
       continue;
     }
     const std::string_view rest = raw;
-    const TakenCharacter c = take_character(raw);
+    const DecodedCharacter c = decode_character(raw);
     const std::size_t wide = c.length > 0 && c.code > 0xFFFFU ? 2 : 1;
     // The last word is kept for what says that there was more.
     if (words + wide > kMaxCellWords - (raw.empty() ? 0 : 1)) {

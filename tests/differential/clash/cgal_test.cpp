@@ -74,9 +74,9 @@ double squared_gap(const CGAL::Bbox_3& a, const CGAL::Bbox_3& b) {
   return sum;
 }
 
-/// The least squared distance, to the last digit but one. Boxes farther apart than `enough`, which
+/// The least squared distance, to the last digit but one. Boxes farther apart than `cutoff`, which
 /// is Strake's answer, are passed over: nothing nearer can be missed.
-std::optional<double> squared_distance(const IndexedMesh& a, const IndexedMesh& b, double enough) {
+std::optional<double> squared_distance(const IndexedMesh& a, const IndexedMesh& b, double cutoff) {
   const auto in_a = triangles_of<Exact>(a), in_b = triangles_of<Exact>(b);
   std::vector<CGAL::Bbox_3> box_b;
   for (const auto& t : in_b) box_b.push_back(t.bbox());
@@ -85,7 +85,7 @@ std::optional<double> squared_distance(const IndexedMesh& a, const IndexedMesh& 
   for (const auto& t : in_a) {
     const CGAL::Bbox_3 box = t.bbox();
     for (std::size_t j = 0; j < in_b.size(); ++j) {
-      if (squared_gap(box, box_b[j]) > enough * (1 + 1e-9)) continue;
+      if (squared_gap(box, box_b[j]) > cutoff * (1 + 1e-9)) continue;
       if (++visited > 4000) return std::nullopt;
       const Exact::FT d = CGAL::squared_distance(t, in_b[j]);
       if (!least || d < *least) least = d;

@@ -214,12 +214,12 @@ TEST(PrimitiveSeparationLaws, AnEarlyEndIsACertainLowerBound) {
     const Pair p = draw_pair(seed);
     const auto s = solved(p.a, p.b);
     if (!s || s->d < 0) continue;
-    const double enough = s->d * 0.7;
-    const auto early = primitive_separation(p.a.placed(), p.b.placed(), enough);
+    const double cutoff = s->d * 0.7;
+    const auto early = primitive_separation(p.a.placed(), p.b.placed(), cutoff);
     ASSERT_TRUE(early);
     EXPECT_LE(early->lower, s->upper) << p.what;
     // Two that touch may meet by less than a bracket's width.
-    EXPECT_GE(early->upper, std::min(enough, s->lower)) << p.what;
+    EXPECT_GE(early->upper, std::min(cutoff, s->lower)) << p.what;
   }
 }
 

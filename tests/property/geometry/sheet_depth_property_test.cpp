@@ -65,9 +65,9 @@ TEST_P(SheetDepths, TheNearestOfACurveIsThatOfALookAtAll) {
       const double limit = draw.one_in(2) ? 1e9 : draw.between(0, 20'000);
       const double least = std::min(brute_distance(p, curve), limit);
       ASSERT_EQ(tree.nearest(p, limit, -1).distance, least);
-      const double enough = draw.between(0, 10'000);
-      const double found = tree.nearest(p, limit, enough).distance;
-      ASSERT_TRUE(found == least || (found >= least && found <= enough));
+      const double cutoff = draw.between(0, 10'000);
+      const double found = tree.nearest(p, limit, cutoff).distance;
+      ASSERT_TRUE(found == least || (found >= least && found <= cutoff));
     }
   }
 }

@@ -65,7 +65,7 @@ class BcfClient(BcfProject):
     def test_every_decision_arrives_and_nothing_else_changes(self):
         for number, version in enumerate(('2.1', '3.0')):
             with self.subTest(version):
-                self.out('--bcf-version', version, '--bcf-most', 500)
+                self.out('--bcf-version', version, '--bcf-max-topics', 500)
                 guids = self.by_client('x.bcf', 'same.bcf', {})
                 self.assertGreater(len(guids), 50)
                 for read in guids.values():

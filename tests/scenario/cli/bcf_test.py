@@ -85,7 +85,7 @@ class BcfOut(RowProject):
 
     def test_what_is_left_out_is_reported(self):
         self.write('row.obj', cubes([*ROW, (340, 0, 0)]))
-        reported = self.clash('-o', 'x.bcf', '--bcf-most', 2).stderr
+        reported = self.clash('-o', 'x.bcf', '--bcf-max-topics', 2).stderr
         self.assertIn('x.bcf: without 1 result beyond the first 2, and 1 contact', reported)
         self.assertEqual(len(self.bcf().topics), 2)
         reported = self.clash('-o', 'x.bcf', '--bcf-contacts').stderr
@@ -111,7 +111,7 @@ class BcfOut(RowProject):
         self.assertNotIn('dated', self.clash('-o', 'x.bcf', '--bcf-date', '2026-01-31').stderr)
 
     def test_misuse(self):
-        for options, reported in ((['--bcf-version', '2.1'], 'no .bcf is written'), (['--bcf-most', '5'], 'no .bcf is written'),
+        for options, reported in ((['--bcf-version', '2.1'], 'no .bcf is written'), (['--bcf-max-topics', '5'], 'no .bcf is written'),
                               (['-o', 'x.bcf', '--bcf-date', 'today'], 'is no date'),
                               (['-o', 'x.bcf', '--bcf-version', '2.0'], '2.1'),
                               (['-o', 'x.bcf', '--bcf-author', ' '], 'no name')):
@@ -124,7 +124,7 @@ class BcfHostileNames(Scenario):
             children = [(name, {}, .05 * (number + i), []) for i, name in enumerate([*NAMES, *LONG])]
             (self.folder / file).write_text(gltf((NAMES[number], {}, None, children)), encoding='utf-8')
         for version in ('2.1', '3.0'):
-            done = self.run_strake('clash', *(f'./{file}' for file in FILES[:3]), '--quiet', '-o', 'x.bcfzip', '--bcf-most', 60,
+            done = self.run_strake('clash', *(f'./{file}' for file in FILES[:3]), '--quiet', '-o', 'x.bcfzip', '--bcf-max-topics', 60,
                                    '--bcf-version', version)
             self.assertEqual(done.returncode, 0, done.stderr)
             bcf = Bcf(self.folder / 'x.bcfzip', self.fail)

@@ -157,11 +157,11 @@ class Clash(Scenario):
 
     def test_the_limit_of_pairs_can_be_set(self):
         self.two_files()
-        done = self.run_strake('clash', 'a.obj', '--most-pairs', 0)
+        done = self.run_strake('clash', 'a.obj', '--max-pairs', 0)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn('more than 0 pairs', done.stderr)
-        self.assertIn('--most-pairs', done.stderr)
-        self.assertEqual(self.run_strake('clash', 'a.obj', '--most-pairs', 1).returncode, 0)
+        self.assertIn('--max-pairs', done.stderr)
+        self.assertEqual(self.run_strake('clash', 'a.obj', '--max-pairs', 1).returncode, 0)
 
     def test_contacts_are_counted_or_listed(self):
         """Three cubes in a row that touch, and one that runs into the last."""
@@ -230,7 +230,7 @@ class Clash(Scenario):
         # 2 mm apart; with one sphere the baseline cannot tell how far, nor whether at all.
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (102, 0, 0), 100))
         run = ['clash', 'a.obj', *self.SETTINGS, '--clearance', '3mm', '--narrow-phase', 'sphere-subdivision',
-               '--most-spheres', 1, '--json']
+               '--max-spheres', 1, '--json']
         done = self.run_strake(*run)
         (result,) = json.loads(done.stdout)['results']
         self.assertEqual((done.returncode, result['class'], result['may_be']), (0, 'CONTACT', 'HIT'))

@@ -194,7 +194,7 @@ class Schemas(unittest.TestCase):
 
     def test_clash_with_depths_that_a_work_limit_ended(self):
         self.run_strake('clash', 'ship.glb', '-o', 'exact.json')
-        self.run_strake('clash', 'ship.glb', '--narrow-phase', 'sphere-subdivision', '--most-spheres', 50,
+        self.run_strake('clash', 'ship.glb', '--narrow-phase', 'sphere-subdivision', '--max-spheres', 50,
                         '-o', 'rough.json')
         rough = self.follows((self.folder / 'rough.json').read_text(encoding='utf-8'), 'clash')
         self.assertIn(False, [result.get('depth_complete') for result in rough['results']])

@@ -74,7 +74,7 @@ class Usage(Scenario):
                 (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv or '),
                 (['clash', 'a.obj', '--a', 'name ='], '--a, selection, column 7'),
                 (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),
-                (['clash', 'a.obj', '--most-pairs', 'all'], '--most-pairs'),
+                (['clash', 'a.obj', '--max-pairs', 'all'], '--max-pairs'),
                 (['draw', 'a.obj'], '-o FILE.svg'),
                 (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .pdf or .dxf or .json'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--view', 'askew'], 'top|bottom'),
@@ -98,6 +98,16 @@ class Usage(Scenario):
                 self.assertIn(stated, done.stderr)
                 self.assertIn('strake: error: ', done.stderr)
                 self.assertEqual(done.stdout, '')
+
+    def test_former_names_of_options_work_and_are_not_shown(self):
+        self.two_files()
+        shown = self.run_strake('clash', '--help').stdout + self.run_strake('completion', 'bash').stdout
+        for former, name in (('--most-pairs', '--max-pairs'), ('--most-spheres', '--max-spheres'), ('--bcf-most', '--bcf-max-topics')):
+            with self.subTest(former):
+                self.assertEqual(self.run_strake('clash', 'a.obj', '-o', 'x.bcf', former, '1').returncode, 0)
+                self.assertIn(name, self.run_strake('clash', 'a.obj', '-o', 'x.bcf', former, 'all').stderr)
+                self.assertIn(name, shown)
+                self.assertNotIn(former, shown)
         self.assertEqual(self.files(), ['a.obj', 'b.obj'])
 
 

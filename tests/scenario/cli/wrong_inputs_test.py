@@ -24,7 +24,7 @@ LENGTHS = ['clash a.obj --clearance', 'clash a.obj --touch-gap', 'clash a.obj --
            'draw a.obj -o x.svg --eye 1m,1m,1m --target 0,0,0 --near', 'draw diff v.view v.view --tolerance']
 SECONDS = [('long', 'no number of seconds'), ('-1', 'no number of seconds'), ('1e9', 'from 0 to 3600'), ('nan', 'no number of seconds'),
            ("''", 'the value is empty')]
-COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj --most-pairs', 'clash a.obj --most-spheres', 'clash a.obj --regions', 'clash a.obj --pictures p --top-pictures',
+COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj --max-pairs', 'clash a.obj --max-spheres', 'clash a.obj --regions', 'clash a.obj --pictures p --top-pictures',
           'generate ship -o x.glb --objects', 'generate ship -o x.glb --seed',
           'generate ship -o x.glb --imported-detail',
           'generate ship -o x.glb --imported-detail 1 --imported-triangles']
@@ -159,7 +159,7 @@ USAGE = [
     ("clash a.obj --decisions ''", '--decisions', 'the value is empty'),
     ('clash missing.obj --group-by element --group-distance 0', '--group-distance', 'such as 3m'),
     ('clash a.obj --group-by element --group-contacts --contacts count', '--group-contacts', 'leave out'),
-    ('clash a.obj --bcf-most 3', '--bcf-most', 'add -o FILE.bcf'), ('clash a.obj --bcf-version 3.0', '--bcf-version', 'add -o FILE.bcf'),
+    ('clash a.obj --bcf-max-topics 3', '--bcf-max-topics', 'add -o FILE.bcf'), ('clash a.obj --bcf-version 3.0', '--bcf-version', 'add -o FILE.bcf'),
     ('clash a.obj --bcf-author me', '--bcf-author', 'add -o FILE.bcf'), ('clash a.obj --bcf-contacts', '--bcf-contacts', 'add -o FILE.bcf'),
     ('clash a.obj --bcf-date 2026-13-01 -o x.bcf', '--bcf-date', '2026-01-31'),
     ('clash a.obj --page-geometry all', '--page-geometry', 'add -o FILE.html'),

@@ -27,9 +27,9 @@ IndexedMesh shifted(IndexedMesh mesh, const Vec3i& by) {
   return mesh;
 }
 
-SeparationBound gap_of(const Subject& a, const Subject& b, double enough = kFar) {
+SeparationBound gap_of(const Subject& a, const Subject& b, double cutoff = kFar) {
   const OrientedBox x = make_oriented_box(a.part), y = make_oriented_box(b.part);
-  return convex_hull_separation({a.treed().placed, &x}, {b.treed().placed, &y}, enough);
+  return convex_hull_separation({a.treed().placed, &x}, {b.treed().placed, &y}, cutoff);
 }
 
 /// Pipes that cross: no face of either stands across the gap.

@@ -23,13 +23,13 @@ using testing::Subject;
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-SeparationBound parting(const Subject& a, const Subject& b, double enough = kAny) {
+SeparationBound parting(const Subject& a, const Subject& b, double cutoff = kAny) {
   const OrientedBox f = make_oriented_box(a.part), g = make_oriented_box(b.part);
-  return oriented_box_separation({a.treed().placed, &f}, {b.treed().placed, &g}, enough);
+  return oriented_box_separation({a.treed().placed, &f}, {b.treed().placed, &g}, cutoff);
 }
 
-double gap(const Subject& a, const Subject& b, double enough = kAny) {
-  return parting(a, b, enough).lower;
+double gap(const Subject& a, const Subject& b, double cutoff = kAny) {
+  return parting(a, b, cutoff).lower;
 }
 
 /// Turned by a rotation of rational entries, snapped.
@@ -123,9 +123,9 @@ TEST(OrientedBox, NoGapIsWiderThanTheDistance) {
     const Vec3d n = parting(a, b).normal;
     EXPECT_GE(lowest(a, n, {}) + lowest(b, -n, b.origin - a.origin), g) << "seed " << seed;
     // An early end is no more than another bound.
-    const double enough = gap(a, b, 5);
-    EXPECT_LE(enough, g + 1e-9) << "seed " << seed;
-    EXPECT_EQ(enough >= 5, g >= 5) << "seed " << seed;
+    const double cutoff = gap(a, b, 5);
+    EXPECT_LE(cutoff, g + 1e-9) << "seed " << seed;
+    EXPECT_EQ(cutoff >= 5, g >= 5) << "seed " << seed;
   }
   EXPECT_GT(apart, 100);
 }

@@ -27,11 +27,11 @@ TEST(ShortRegion, results_are_those_of_one_block) {
       0);
   EXPECT_EQ(few, one_block);
   // From as many on it is a region as any: with its grain.
-  const auto enough = test::results(
+  const auto region = test::results(
       {.team = &team},
       {.name = "enough", .n = test::kResultItems, .grain = 16, .alone_below = test::kResultItems},
       0);
-  EXPECT_EQ(enough, test::results({}, {.name = "any", .n = test::kResultItems, .grain = 16}, 0));
+  EXPECT_EQ(region, test::results({}, {.name = "any", .n = test::kResultItems, .grain = 16}, 0));
 }
 
 TEST(ShortRegion, runs_on_the_caller_and_is_not_reported) {

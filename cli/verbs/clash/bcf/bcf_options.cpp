@@ -21,7 +21,7 @@ namespace {
 /// Returns the first option of the command line that is about BCF; null where there is none.
 const char* first_given(const BcfInput& input) {
   if (!input.version.empty()) return "--bcf-version";
-  if (!input.max_topics.empty()) return "--bcf-most";
+  if (!input.max_topics.empty()) return "--bcf-max-topics";
   if (!input.date.empty()) return "--bcf-date";
   if (!input.author.empty()) return "--bcf-author";
   if (input.history) return "--bcf-history";
@@ -41,12 +41,13 @@ void add_bcf_options(CLI::App& command, BcfInput& options) {
              "Version of .bcf (default 2.1, which most programs read)")
       ->group(kGroup);
   command
-      .add_option("--bcf-most", options.max_topics,
+      .add_option("--bcf-max-topics", options.max_topics,
                   fmt::format("Most topics of .bcf: the first groups, or the worst results "
                               "(default {})",
                               report::BcfForm{}.max_topics))
       ->type_name("N")
       ->group(kGroup);
+  add_former_name(command, "--bcf-most", options.max_topics);
   command
       .add_flag("--bcf-contacts", options.contacts,
                 "Topics for contacts, too, where there are no groups")
@@ -77,7 +78,8 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
   form.contacts = input.contacts;
   if (!input.max_topics.empty()) {
     std::uint64_t max_topics = 0;
-    if (const Status status = whole_number(max_topics, input.max_topics, "--bcf-most"); !status)
+    if (const Status status = whole_number(max_topics, input.max_topics, "--bcf-max-topics");
+        !status)
       return status.error();
     form.max_topics = static_cast<std::size_t>(max_topics);
   }
@@ -115,7 +117,7 @@ void report_left_out(Console& console, const std::string& file,
         counted(strange, "date"), strange == 1 ? "is" : "are", strange == 1 ? "its" : "their"));
   if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
     console.note(
-        fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
+        fmt::format("{}: without {} (--bcf-max-topics, --bcf-contacts, --group-by)", file, text));
 }
 
 report::BcfForm with_run_date(report::BcfForm form, const ProjectClashes* project) {

@@ -123,12 +123,12 @@ void SegmentBvh::build(std::uint32_t node, std::span<SegmentPiece> pieces) {
   build(left + 1, pieces.subspan(pieces.size() / 2));
 }
 
-SegmentBvh::NearestSegment SegmentBvh::nearest(const Vec3d& p, double limit, double enough) const {
+SegmentBvh::NearestSegment SegmentBvh::nearest(const Vec3d& p, double limit, double cutoff) const {
   NearestSegment best{.distance = limit};
   std::array<std::pair<double, std::uint32_t>, kMaxLevels + 1> stack;
   std::size_t size = 0;
   if (!nodes_.empty()) stack[size++] = {squared_gap(p, nodes_[0].box), 0};
-  while (size > 0 && best.distance > enough) {
+  while (size > 0 && best.distance > cutoff) {
     const auto [gap, index] = stack[--size];
     if (gap * (1 - kBoundaryRounding) > best.distance * best.distance) continue;
     const Node& node = nodes_[index];

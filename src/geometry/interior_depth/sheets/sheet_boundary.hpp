@@ -36,8 +36,8 @@ class SegmentBvh {
   [[nodiscard]] const Segment& operator[](std::uint32_t i) const { return segments_[i]; }
 
   /// The segment nearest to a point, if nearer than `limit`; the distance is bit for bit what a
-  /// scan of all would give. The first that is no farther than `enough` suffices.
-  [[nodiscard]] NearestSegment nearest(const Vec3d& p, double limit, double enough) const;
+  /// scan of all would give. The first that is no farther than `cutoff` suffices.
+  [[nodiscard]] NearestSegment nearest(const Vec3d& p, double limit, double cutoff) const;
 
  private:
   struct Node {

@@ -119,11 +119,11 @@ class CurveSearch {
     if (goal_.within && !box_of(end).meets(*goal_.within)) return;
     ++depth_.cells;
     const Vec3d middle = (end[0] + end[1]) * 0.5;
-    const double radius = length(end[1] - end[0]) / 2, enough = depth_.value - radius;
-    const auto on_a = boundary_a_.nearest(middle, ceiling_, enough);
-    const auto on_b = boundary_b_.nearest(middle - shift_, on_a.distance, enough);
+    const double radius = length(end[1] - end[0]) / 2, cutoff = depth_.value - radius;
+    const auto on_a = boundary_a_.nearest(middle, ceiling_, cutoff);
+    const auto on_b = boundary_b_.nearest(middle - shift_, on_a.distance, cutoff);
     const double d = on_b.distance;
-    if (d <= enough) return;
+    if (d <= cutoff) return;
     if (d > depth_.value && goal_.counts(middle)) {
       depth_.value = d;
       depth_.lower = std::max(0.0, d - kSlack);

@@ -146,8 +146,8 @@ std::optional<InteriorDistance> InteriorDistance::of(const PlacedPrimitive& p,
 }
 
 InteriorDistance::NearestFace InteriorDistance::nearest(const Vec3d& x) const {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  NearestFace nearest{kNever, kNever, {}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  NearestFace nearest{kInfinity, kInfinity, {}};
   for (std::size_t i = 0; i < planes_; ++i) {
     const double depth = faces_[i].offset - dot(faces_[i].normal, x);
     nearest.certain = std::min(nearest.certain, depth - faces_[i].error);

@@ -50,7 +50,7 @@ struct DepthProbe {
 /// `domain`: a linear program in four variables over all half-spaces of both, whose cuts (Kelley
 /// 1960) are generated as needed and added by the dual simplex method. Multipliers prove the upper
 /// bound, a point of the domain with its certain depth the lower one. Ends when they agree to
-/// kDepthTolerance, when the upper one falls to `enough`, or when nothing is violated by more than
+/// kDepthTolerance, when the upper one falls to `cutoff`, or when nothing is violated by more than
 /// a part of that.
 ///
 /// Measured: middle(), extent() and bound(n) give a point, a bound on coordinates about it, and a
@@ -59,7 +59,7 @@ struct DepthProbe {
 /// stands for.
 template <class Measured, class Domain>
 [[nodiscard]] DeepestPoint maximise_depth(const Measured& measured, const Domain& domain,
-                                          double enough) {
+                                          double cutoff) {
   constexpr int kMaxSteps = 200;
   const Vec3d from = measured.middle();
   std::array<BallConstraint, 4> first;
@@ -86,7 +86,7 @@ template <class Measured, class Domain>
       try_point(at, probe.certain - to_domain.upper - domain.hull().error);
     else
       try_point(point_in_body, measured.certain(point_in_body) - domain.hull().error);
-    if (result.upper - result.lower <= kDepthTolerance || result.upper <= enough) break;
+    if (result.upper - result.lower <= kDepthTolerance || result.upper <= cutoff) break;
     BallConstraint cut = moved(probe.cut, from);
     if (to_domain.lower > simplex.excess(cut))
       cut = moved(half_space(domain.hull(), to_domain.normal, 0), from);

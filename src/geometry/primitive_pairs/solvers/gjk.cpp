@@ -161,7 +161,7 @@ Vec3d first_direction(const ConvexBody& a, const ConvexBody& b) {
 
 }  // namespace
 
-GjkResult gjk_distance(const ConvexBody& a, const ConvexBody& b, double enough) {
+GjkResult gjk_distance(const ConvexBody& a, const ConvexBody& b, double cutoff) {
   GjkResult gap;
   const double error = a.error + b.error;
   GjkSimplex simplex;
@@ -176,7 +176,7 @@ GjkResult gjk_distance(const ConvexBody& a, const ConvexBody& b, double enough) 
       gap.lower = slab;
       gap.normal = way * (1 / length);
     }
-    if (gap.lower >= enough || gap.upper - gap.lower <= kGapTolerance || simplex.holds(w)) break;
+    if (gap.lower >= cutoff || gap.upper - gap.lower <= kGapTolerance || simplex.holds(w)) break;
     simplex.add({w, on_a});
     way = simplex.reduce();
     const double apart = norm(way);

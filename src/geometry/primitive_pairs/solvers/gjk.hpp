@@ -25,9 +25,9 @@ struct GjkResult {
 /// difference a - b nearest to the origin, by simplices of support points. Every direction tried
 /// gives a slab between the two, hence the lower bound; the points returned are convex combinations
 /// of points of the bodies, hence the upper one. Both count their rounding and hold wherever the
-/// iteration stops: at a bracket of kGapTolerance, at a lower bound of `enough`, or when doubles
+/// iteration stops: at a bracket of kGapTolerance, at a lower bound of `cutoff`, or when doubles
 /// bring no progress.
 [[nodiscard]] GjkResult gjk_distance(const ConvexBody& a, const ConvexBody& b,
-                                     double enough = std::numeric_limits<double>::infinity());
+                                     double cutoff = std::numeric_limits<double>::infinity());
 
 }  // namespace strake::geometry::primitive_pairs

@@ -52,8 +52,8 @@ inline std::array<ArcPair, 2> split_arc_pair(const PrimitiveOperand& a, const Pr
 /// bodies from above.
 class TorusDistanceSearch {
  public:
-  TorusDistanceSearch(const PrimitiveOperand& a, const PrimitiveOperand& b, double enough)
-      : a_(a), b_(b), enough_(enough), error_(a.error() + b.error()) {}
+  TorusDistanceSearch(const PrimitiveOperand& a, const PrimitiveOperand& b, double cutoff)
+      : a_(a), b_(b), cutoff_(cutoff), error_(a.error() + b.error()) {}
 
   GjkResult run() {
     for (const SweptArc& a : a_.arcs())
@@ -86,14 +86,14 @@ class TorusDistanceSearch {
 
  private:
   [[nodiscard]] bool finished() const {
-    return best_.lower >= enough_ || best_.upper - best_.lower <= kTorusDistanceTolerance ||
+    return best_.lower >= cutoff_ || best_.upper - best_.lower <= kTorusDistanceTolerance ||
            best_.upper <= error_ + kGapTolerance;
   }
 
   void evaluate(ArcPair cell) {
     ++count_;
     const GjkResult gap =
-        gjk_distance(a_.hull(cell.a), b_.hull(cell.b), std::min(enough_, best_.upper));
+        gjk_distance(a_.hull(cell.a), b_.hull(cell.b), std::min(cutoff_, best_.upper));
     if (gap.upper < std::numeric_limits<double>::infinity()) improve(gap);
     cell.bound = std::max(cell.bound, gap.lower);
     cell.id = count_;
@@ -143,7 +143,7 @@ class TorusDistanceSearch {
   }
 
   const PrimitiveOperand &a_, &b_;
-  double enough_, error_;
+  double cutoff_, error_;
   GjkResult best_;
   double max_bound_ = -std::numeric_limits<double>::infinity();
   std::size_t count_ = 0;

@@ -90,7 +90,7 @@ class DxfCanvas final : public ArtworkCanvas {
   [[nodiscard]] double width_of(const std::string& text) override {
     std::string_view rest = text;
     double width = 0;
-    while (!rest.empty()) width += widths_.of(take_character(rest));
+    while (!rest.empty()) width += widths_.of(decode_character(rest));
     return width;
   }
 

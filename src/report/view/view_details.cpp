@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/view/view_rest.hpp"
+#include "report/view/view_details.hpp"
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ std::string place_in(std::string_view list, std::size_t number) {
 
 }  // namespace
 
-void ViewRest::add(const ReadPiece& piece, std::string_view list_item) {
+void ViewDetails::add(const ReadPiece& piece, std::string_view list_item) {
   const auto where = [&] { return std::string(list_item) + " " + std::to_string(lines.size()); };
   if (piece.edge == ReadPiece::kNone) throw missing_key(where(), "edge");
   const drawing::Line line{model::ObjectId{piece.object},
@@ -46,11 +46,11 @@ void ViewRest::add(const ReadPiece& piece, std::string_view list_item) {
     throw contradiction(where(), "is of another curve than its edge");
 }
 
-void take_curves(JsonReader& json, ViewRest& rest) {
+void read_curves(JsonReader& json, ViewDetails& details) {
   DocumentFields fields(json);
   fields.must_be(Kind::array, "the document", "curves", "list");
   json.items([&] {
-    const std::size_t number = rest.curves.all.size();
+    const std::size_t number = details.curves.all.size();
     const auto where = [number] { return place_in("curves", number); };
     if (json.kind() != Kind::object) throw DocumentFault{where(), "is no object"};
     drawing::PaperCurve curve;
@@ -67,15 +67,15 @@ void take_curves(JsonReader& json, ViewRest& rest) {
     });
     for (const auto& [name, into] : points)
       if (into != nullptr) throw missing_key(where(), name);
-    rest.curves.all.push_back(curve);
+    details.curves.all.push_back(curve);
   });
 }
 
-void take_defects(JsonReader& json, ViewRest& rest) {
+void read_defects(JsonReader& json, ViewDetails& details) {
   DocumentFields fields(json);
   fields.must_be(Kind::array, "the document", "defects", "list");
   json.items([&] {
-    const std::string where = place_in("defects", rest.defects.size());
+    const std::string where = place_in("defects", details.defects.size());
     if (json.kind() != Kind::object) throw DocumentFault{where, "is no object"};
     ViewDefect defect;
     json.members([&](std::string_view key) {
@@ -93,17 +93,18 @@ void take_defects(JsonReader& json, ViewRest& rest) {
       else
         json.skip();
     });
-    rest.defects.push_back(std::move(defect));
+    details.defects.push_back(std::move(defect));
   });
 }
 
-void take_cut_files(JsonReader& json, ViewRest& rest) {
+void read_cut_files(JsonReader& json, ViewDetails& details) {
   DocumentFields fields(json);
   fields.must_be(Kind::array, "the document", "files_ending_early", "list");
-  json.items([&] { rest.cut_files.push_back(fields.text("the document", "files_ending_early")); });
+  json.items(
+      [&] { details.cut_files.push_back(fields.text("the document", "files_ending_early")); });
 }
 
-drawing::PaperFrame take_frame(JsonReader& json) {
+drawing::PaperFrame read_frame(JsonReader& json) {
   const auto mm = DocumentFields(json).numbers<4>([] { return std::string("sheet"); },
                                                   "frame_paper_mm", drawing::kFarthestPaperMm);
   return {mm[0], mm[1], mm[2], mm[3]};

@@ -25,7 +25,7 @@ struct ViewDefect {
   std::vector<std::string> why;
 };
 
-struct ViewRest {
+struct ViewDetails {
   std::vector<drawing::Line> lines;  ///< objects are indices into ViewDocument::objects
   drawing::PaperCurves curves;
   std::vector<ViewDefect> defects;
@@ -42,14 +42,14 @@ struct ViewRest {
 
 /// Reads the members of a document, each of which must come next. They throw DocumentFault and
 /// JsonReader::Fault.
-void take_curves(JsonReader& json, ViewRest& rest);
-void take_defects(JsonReader& json, ViewRest& rest);
-void take_cut_files(JsonReader& json, ViewRest& rest);
-[[nodiscard]] drawing::PaperFrame take_frame(JsonReader& json);
+void read_curves(JsonReader& json, ViewDetails& details);
+void read_defects(JsonReader& json, ViewDetails& details);
+void read_cut_files(JsonReader& json, ViewDetails& details);
+[[nodiscard]] drawing::PaperFrame read_frame(JsonReader& json);
 
-/// Reads a document with all that it holds: its lines are in `rest` instead of
+/// Reads a document with all that it holds: its lines are in `details` instead of
 /// ViewDocument::pieces. Errors: those of parse_view_document().
 [[nodiscard]] Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name,
-                                                       ViewRest& rest);
+                                                       ViewDetails& details);
 
 }  // namespace strake::report
