@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from strake.importers.report import ImportFailed, Report
 from strake.importers.scene_writer import SceneTooLarge, SceneWriter
-from strake.importers.supervision import crash_of
+from strake.importers.supervision import Attempt, crash_of
 
 
 @dataclass
@@ -38,6 +38,9 @@ class Job:
     unit: str = ""
     depends_on: list[str] = field(default_factory=list)
     map_place: dict[str, Any] | None = None
+    attempt: Attempt = field(default_factory=Attempt)
+    # What need not be taken apart before the process ends, which gives its memory back at once.
+    kept: list[Any] = field(default_factory=list)
 
     def scene(self, unit_mm: float = 1.0, up: str = "z", sag_mm: float | None = None) -> SceneWriter:
         """Begins the scene; `sag_mm` as SceneWriter has it."""
@@ -78,6 +81,9 @@ def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
     with Report(options.report) as report:
         job = Job(options.input, options.output, report, max(1, options.threads), options.sag)
         crash = crash_of(lambda: _converted(convert, job))
+        if crash.name and job.attempt.repeat():
+            report.begin_anew()
+            crash = crash_of(lambda: _converted(convert, job))
         if crash.name:
             report.error(f"reading it ended with {crash.name}", "the file may be damaged: export it again, or in another version")
         return crash.status

@@ -39,12 +39,23 @@ class _Pairs:
         return _Pairs(*(of[chosen] for of in (self.first, self.second, self.a, self.b, self.c, self.d)))
 
 
-def settled(vertices: Corners, triangles: NDArray[np.uint32]) -> NDArray[np.uint32]:
+def settled(vertices: Corners, triangles: NDArray[np.uint32], ends: Numbers | None = None) -> NDArray[np.uint32]:
     """Returns the triangles, the same whichever triangulation of its flat faces they were. Vertices are in millimetres.
 
     Triangles that are alone in their plane stay what and where they are. The others have the rows of their face, in the order of
-    their corners.
+    their corners. `ends` may say where the triangles of one mesh end and those of the next begin, which have no corner in common.
     """
+    result = _settled(vertices, triangles)
+    if result is not None:
+        return result
+    if ends is None or len(ends) == 1:
+        return triangles
+    # One of them comes to no end.
+    return np.concatenate([settled(vertices, some) for some in np.split(triangles, ends[:-1])])
+
+
+def _settled(vertices: Corners, triangles: NDArray[np.uint32]) -> NDArray[np.uint32] | None:
+    """The same; nothing where it comes to no end."""
     pairs = _flat_pairs(vertices, triangles.astype(np.int64))
     if not len(pairs.first):
         return triangles
@@ -62,7 +73,7 @@ def settled(vertices: Corners, triangles: NDArray[np.uint32]) -> NDArray[np.uint
         work[pending] = some
         pending = np.flatnonzero(np.isin(face, face[pending[wrong.first]]))
     else:
-        return triangles
+        return None
     rank = np.empty(len(vertices), dtype=np.int64)
     rank[np.lexsort(vertices.T[::-1])] = np.arange(len(vertices))
     _, circles = _judged(vertices, _flat_pairs(vertices, work, face))

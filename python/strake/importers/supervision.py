@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import mmap
 import os
 import signal
 import sys
@@ -20,6 +21,25 @@ class Crash:
 
     status: int
     name: str = ""
+
+
+class Attempt:
+    """What a process that may crash tells the one that watches it: whether it is worth to begin anew, with more care."""
+
+    def __init__(self) -> None:
+        self._shared = mmap.mmap(-1, mmap.PAGESIZE)
+        self.is_careful = not hasattr(os, "fork")
+
+    def may_be_repeated(self, may: bool) -> None:
+        """Says whether, if it crashes now, it is to be begun anew."""
+        self._shared[0] = may
+
+    def repeat(self) -> bool:
+        """Whether it is to be begun anew, which it then is with care."""
+        again = bool(self._shared[0]) and not self.is_careful
+        self._shared[0] = False
+        self.is_careful = True
+        return again
 
 
 def crash_of(function: Callable[[], int]) -> Crash:

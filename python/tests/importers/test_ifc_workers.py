@@ -19,7 +19,7 @@ from strake.importers.ifc.workers import Ended, Workers
 CRASHES, HANGS, RAISES, WAITS = 13, 17, 19, 99
 
 
-def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
+def fake(_: object, chunk: Chunk) -> Iterator[list[Answer]]:
     for number in chunk.products:
         if number == CRASHES:
             os.kill(os.getpid(), signal.SIGKILL)
@@ -29,7 +29,7 @@ def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
             time.sleep(1000)
         if number == RAISES:
             raise RuntimeError("bad product")
-        yield Converted(number, b"k", (0, 0, 0), b"", None, chunk.kernel)
+        yield [Converted(number, b"k", (0, 0, 0), b"", None, chunk.kernel)]
 
 
 @pytest.mark.parametrize("count", [1, 3])

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import math
 import re
+import struct
+import time
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,27 +21,33 @@ from strake.importers.ifc.faces import Faces, faces_of
 from strake.importers.ifc.kernels import CUT, SAG_M, geometry_settings, shapes_of
 from strake.importers.ifc.pinched import outlines_of, split_face
 from strake.importers.ifc.solids import Mesh
-from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
+from strake.importers.shapes import Color, Part, PreparedShape, prepare_shapes
 
 # The fault of a shape without a triangle.
 EMPTY = "nothing is left of it"
 # What IfcOpenShell says of a face that it leaves out; the instance of the message is the face.
 _FACE_LEFT_OUT = "Failed to convert face"
 _MM_PER_M = 1000.0
+# Answers come together that come within so many seconds: each by itself takes time of both who gives and who gets it.
+_TOGETHER_S = 0.05
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Products by number, which are converted in one go by one kernel."""
+    """Products by number, which are converted in one go by one kernel.
+
+    `watched`: each is answered at once, so that after a crash it is known at which the kernel was.
+    """
 
     products: tuple[int, ...]
     kernel: str
     attempt: int = 0
+    watched: bool = False
 
 
 @dataclass(frozen=True)
 class Converted:
-    """What became of one product. `shape` is there once for each shape of a chunk."""
+    """What became of one product. `shape` is there once for each shape of a chunk, `placement` are 16 doubles, rows first."""
 
     product: int
     key: bytes
@@ -69,9 +77,9 @@ class Again:
 Answer = Converted | Remark | Again
 
 
-def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
+def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[list[Answer]]:
     """Yields what becomes of each product that gets a shape, then what is to be said of any; the last that is said of one
-    counts.
+    counts. Answers come together, but for those of a chunk that is watched, and where they would be long in coming.
 
     Raises whatever IfcOpenShell raises, and may end the process.
     """
@@ -82,44 +90,123 @@ def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[
         return
     keys: dict[int, bytes] = {}
     for converted in _converted_by(model, chunk, sag_m, log):
-        keys[converted.product] = converted.key
-        yield converted
+        keys.update((one.product, one.key) for one in converted)
+        yield [*converted]
     remarks = list(_remarks(log, chunk))
     mended = _mended(model, log, {remark.product for remark in remarks})
-    yield from (remark for remark in remarks if remark.product not in mended)
+    yield [remark for remark in remarks if remark.product not in mended]
     if mended:
         # What is said of a shape is said of the first that has it.
         shapes = {keys[product] for product in mended if keys.get(product)}
         again = mended | {product for product, key in keys.items() if key in shapes}
         log.clear()
-        rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt)
-        yield Again(rest.products)
-        yield from _converted_by(model, rest, sag_m, log)
-        yield from _remarks(log, rest)
+        rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt, chunk.watched)
+        yield [Again(rest.products)]
+        for converted in _converted_by(model, rest, sag_m, log):
+            yield [*converted]
+        yield [*_remarks(log, rest)]
 
 
-def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
+class _Batch:
+    """Products that have a shape of the kernel, until they are answered together."""
+
+    def __init__(self, chunk: Chunk) -> None:
+        self._chunk = chunk
+        self._began = time.monotonic()
+        self._products: list[tuple[int, str, bytes]] = []
+        self._new: dict[str, tuple[Sequence[Part], float | None]] = {}
+        self._known: dict[str, tuple[bytes, tuple[float, float, float]] | str] = {}
+
+    def has(self, name: str) -> bool:
+        """Whether there is a shape of that name."""
+        return name in self._new or name in self._known
+
+    def add_shape(self, name: str, parts: Sequence[Part], sag_mm: float | None) -> None:
+        """Adds a shape; one without a triangle is none."""
+        if parts:
+            self._new[name] = parts, sag_mm
+        else:
+            self._known[name] = EMPTY
+
+    def add(self, product: int, name: str, placement: bytes) -> None:
+        """Adds a product of a shape; without a placement it has none that is finite."""
+        self._products.append((product, name, placement))
+
+    def is_due(self) -> bool:
+        """Whether those who wait should get what there is."""
+        return self._chunk.watched or time.monotonic() - self._began > _TOGETHER_S
+
+    def take(self) -> list[Converted]:
+        """Returns what becomes of the products, and begins anew."""
+        shapes = dict(zip(self._new, prepare_shapes([*self._new.values()]), strict=True))
+        for name, shape in shapes.items():
+            self._known[name] = str(shape) if isinstance(shape, ValueError) else (shape.key, shape.middle)
+        answers = []
+        for product, name, placement in self._products:
+            known = self._known[name]
+            if isinstance(known, str) or not placement:
+                fault = known if isinstance(known, str) else "its placement is not finite"
+                answers.append(Converted(product, b"", (0, 0, 0), b"", None, self._chunk.kernel, fault))
+                continue
+            sent = shapes.pop(name, None)
+            shape = sent if isinstance(sent, PreparedShape) else None
+            answers.append(Converted(product, *known, placement, shape, self._chunk.kernel))
+        # A shape of which no product is placed yet comes with the first that is.
+        self._new = {name: self._new[name] for name, shape in shapes.items() if isinstance(shape, PreparedShape)}
+        self._products = []
+        self._began = time.monotonic()
+        return answers
+
+
+def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[list[Converted]]:
     iterator = shapes_of(model, chunk.products, geometry_settings(sag_m), chunk.kernel, log)
-    known: dict[str, PreparedShape | str] = {}
+    batch = _Batch(chunk)
     going = iterator.initialize()
     while going:
         element = iterator.get()
-        yield _converted(model, element, known, chunk.kernel, sag_m)
+        name, product = element.geometry.id, element.id
+        if not batch.has(name):
+            batch.add_shape(name, _parts(element.geometry), _sag_mm(model.by_id(product), sag_m))
+        batch.add(product, name, _placement(element.transformation.matrix))
+        if batch.is_due():
+            yield batch.take()
         going = bool(iterator.next())
+    yield batch.take()
 
 
-def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
+def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[list[Converted]]:
+    batch = _Batch(chunk)
     known: set[bytes] = set()
     for cut in cut_products(model, chunk.products, sag_m, log, _color):
         fault = cut.fault or (EMPTY if not cut.pieces else "")
         if fault:
-            yield Converted(cut.product, b"", (0, 0, 0), b"", None, chunk.kernel, fault)
+            yield [Converted(cut.product, b"", (0, 0, 0), b"", None, chunk.kernel, fault)]
             continue
-        shape = prepare_shape(_parts_of_pieces(cut.pieces), sag_mm=_sag_mm(model.by_id(cut.product), sag_m))
-        placement = cut.placement.copy()
-        placement[:3, 3] *= _MM_PER_M
-        yield Converted(cut.product, shape.key, shape.middle, placement.tobytes(), None if shape.key in known else shape, chunk.kernel)
-        known.add(shape.key)
+        name = str(cut.product)
+        batch.add_shape(name, _parts_of_pieces(cut.pieces), _sag_mm(model.by_id(cut.product), sag_m))
+        batch.add(cut.product, name, _placement(cut.placement.T.ravel().tolist()))
+        if batch.is_due():
+            yield _once(batch.take(), known)
+    yield _once(batch.take(), known)
+
+
+def _once(answers: Sequence[Converted], known: set[bytes]) -> list[Converted]:
+    """Leaves shapes out that are known by now: what is cut alike is one."""
+    result = []
+    for answer in answers:
+        result.append(replace(answer, shape=None) if answer.key in known else answer)
+        known.add(answer.key)
+    return result
+
+
+def _placement(matrix: Sequence[float]) -> bytes:
+    """Returns a matrix of the kernel, column by column and in metres, as answers have it; nothing where it is not finite."""
+    if not all(map(math.isfinite, matrix)):
+        return b""
+    rows = [matrix[4 * column + row] for row in range(4) for column in range(4)]
+    for at in (3, 7, 11):
+        rows[at] *= _MM_PER_M
+    return struct.pack("=16d", *rows)
 
 
 def _parts_of_pieces(pieces: Sequence[tuple[Mesh, Color]]) -> list[Part]:
@@ -152,26 +239,6 @@ def _mended(model: Model, log: Any, doubtful: Set[int]) -> set[int]:
     return mended
 
 
-def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float) -> Converted:
-    name = element.geometry.id
-    first = name not in known
-    if first:
-        try:
-            if len(element.geometry.faces_buffer) == 0:
-                raise ValueError(EMPTY)
-            known[name] = prepare_shape(_parts(element.geometry), sag_mm=_sag_mm(model.by_id(element.id), sag_m))
-        except ValueError as fault:
-            known[name] = str(fault)
-    shape = known[name]
-    placement = np.array(element.transformation.matrix, dtype=np.float64).reshape(4, 4).T.copy()
-    placement[:3, 3] *= _MM_PER_M
-    if isinstance(shape, str):
-        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, shape)
-    if not np.isfinite(placement).all():
-        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, "its placement is not finite")
-    return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
-
-
 def _sag_mm(product: Entity, sag_m: float) -> float | None:
     """Returns how far the triangles are from the surfaces at most: what the kernel was asked for where any is curved."""
     try:
@@ -182,9 +249,11 @@ def _sag_mm(product: Entity, sag_m: float) -> float | None:
 
 
 def _parts(geometry: Any) -> Sequence[Part]:
-    """Returns the triangles of each style."""
+    """Returns the triangles of each style; nothing where there are none."""
+    if len(geometry.faces_buffer) == 0:
+        return []
     vertices: NDArray[np.float64] = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3) * _MM_PER_M
-    triangles: NDArray[np.int32] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3)
+    triangles: NDArray[np.int64] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3).astype(np.int64)
     styles: NDArray[np.int32] = np.frombuffer(geometry.material_ids_buffer, dtype=np.int32)
     colors = [_color(material) for material in geometry.materials]
     if len(styles) != len(triangles) or not colors:

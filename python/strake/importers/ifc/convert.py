@@ -34,6 +34,7 @@ def convert(job: Job) -> None:
     with tempfile.TemporaryDirectory(prefix=".strake-ifc-", dir=job.output.parent) as name:
         folder = Path(name)
         model = open_model(job.input, job.report, folder)
+        job.kept.append(model)
         job.made_by = f"ifcopenshell {ifcopenshell.version}"
         job.format = model.schema_identifier
         job.depends_on = [ifcopenshell.__file__, ifcopenshell_wrapper.__file__, *manifold3d_files()]
@@ -42,10 +43,11 @@ def convert(job: Job) -> None:
         products = choose_products(model)
         sys.stdout.flush()
         sag_m = SAG_M if job.sag_mm is None else job.sag_mm / 1000
-        conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m)
+        conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m, job.attempt)
         if conversion.slow_cuts:
             what = f"{conversion.slow_cuts} products with openings or half-spaces are cut by Open CASCADE"
             job.report.note("ifc-slow-cuts", f"{what}; manifold3d takes a tenth of its time: pip install 'strake[ifc]'")
+        job.kept.append(conversion)
         _write(job, model, units, products, conversion)
 
 

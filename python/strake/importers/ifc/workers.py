@@ -9,7 +9,8 @@ import os
 import resource
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -43,7 +44,7 @@ class Ended:
 
 
 Event = Converted | Remark | Again | Ended
-Convert = Callable[[Model, Chunk], Iterator[Answer]]
+Convert = Callable[[Model, Chunk], Iterator[list[Answer]]]
 
 
 @dataclass
@@ -103,7 +104,7 @@ class Workers:
             self._hand_out()
             ready = wait([worker.connection for worker in self._workers if worker.chunk], timeout=_TICK_S)
             for worker in [w for w in self._workers if w.connection in ready]:
-                yield self._heard(worker)
+                yield from self._heard(worker)
             if not ready:
                 yield None
             for worker in [w for w in self._workers if w.chunk and w.is_silent_for(self._silent_s)]:
@@ -134,27 +135,21 @@ class Workers:
         self._workers.append(worker)
         return worker
 
-    def _heard(self, worker: _Worker) -> Event:
+    def _heard(self, worker: _Worker) -> list[Event]:
         try:
-            answer: Any = worker.connection.recv()
+            answers: list[Answer] | None = worker.connection.recv()
         except (EOFError, OSError):
             worker.process.join(5)
             code = worker.process.exitcode
-            return self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")
+            return [self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")]
         worker.heard()
-        if isinstance(answer, Converted):
-            if not answer.fault:
-                worker.got.add(answer.product)
-            return answer
-        if isinstance(answer, Again):
-            worker.got -= set(answer.products)
-            return answer
-        if isinstance(answer, Remark):
-            return answer
         chunk = worker.chunk
         assert chunk is not None
-        worker.chunk = None
-        return Ended(chunk, _missing(chunk, worker.got))
+        if answers is None:
+            worker.chunk = None
+            return [Ended(chunk, missing_of(chunk, worker.got))]
+        note_answers(answers, worker.got)
+        return [*answers]
 
     def _hung(self, worker: _Worker) -> Ended:
         ended = self._lost(worker, f"no answer for {self._silent_s:g} s")
@@ -168,7 +163,7 @@ class Workers:
         chunk = worker.chunk
         assert chunk is not None
         self._forget(worker)
-        return Ended(chunk, _missing(chunk, worker.got), fault)
+        return Ended(chunk, missing_of(chunk, worker.got), fault)
 
     def _forget(self, worker: _Worker) -> None:
         _end(worker)
@@ -186,8 +181,27 @@ def _cpu_seconds(process: int | None) -> float:
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def _missing(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
+def missing_of(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
+    """Returns the products of a chunk that have no shape."""
     return tuple(number for number in chunk.products if number not in got)
+
+
+def note_answers(answers: Sequence[Answer], got: set[int]) -> None:
+    """Keeps up which products have a shape."""
+    for answer in answers:
+        if isinstance(answer, Converted):
+            if not answer.fault:
+                got.add(answer.product)
+        elif isinstance(answer, Again):
+            got -= set(answer.products)
+
+
+def answers_of(convert: Convert, model: Model, chunk: Chunk) -> Iterator[list[Answer]]:
+    """Yields the answers to a chunk. Whatever the library raises is a fault of this chunk."""
+    try:
+        yield from convert(model, chunk)
+    except Exception as fault:
+        yield [Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}")]
 
 
 def _end(worker: _Worker) -> None:
@@ -196,26 +210,28 @@ def _end(worker: _Worker) -> None:
     worker.connection.close()
 
 
-def _bound_memory() -> None:
-    """Lets a worker have half of the machine's memory at most: a few lines of a file may ask for any amount."""
+@contextmanager
+def bounded_memory() -> Iterator[None]:
+    """Lets this process have half of the machine's memory at most: a few lines of a file may ask for any amount."""
     most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
 def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
     end_with_parent(parent)
-    _bound_memory()
     for other in others:
         other.close()
-    while True:
-        try:
-            chunk = connection.recv()
-        except EOFError:
-            return
-        try:
-            for answer in convert(model, chunk):
-                connection.send(answer)
-        except Exception as fault:  # whatever the library raises is a fault of this chunk
-            connection.send(Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}"))
-        connection.send(None)
+    with bounded_memory():
+        while True:
+            try:
+                chunk = connection.recv()
+            except EOFError:
+                return
+            for answers in answers_of(convert, model, chunk):
+                connection.send(answers)
+            connection.send(None)
