@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from strake import _core
 from strake._errors import UsageError
-from strake._numpy import np, npt, types_of_numpy
+from strake._numpy import is_array, np, npt, or_of_numpy
 
 Progress: TypeAlias = Callable[[float, str], object]
 Length: TypeAlias = float | str
@@ -50,7 +50,7 @@ def check_names(given: Mapping[str, Any], options: Mapping[str, Any], function: 
 
 def thread_count(value: Any, name: str) -> int:
     """A number of threads. Raises: UsageError outside 1 to 1024."""
-    if isinstance(value, bool) or not isinstance(value, (int, *types_of_numpy("integer"))):
+    if isinstance(value, bool) or not isinstance(value, or_of_numpy((int,), "integer")):
         raise UsageError(f"{shown(value)} is no whole number", name)
     if not 1 <= value <= MAX_THREADS:
         raise UsageError(f"{shown(value)} is no number of threads", name, f"write 1 to {MAX_THREADS}")
@@ -59,7 +59,7 @@ def thread_count(value: Any, name: str) -> int:
 
 def shown(value: object) -> str:
     """A value as messages show it: in a line, and short."""
-    if isinstance(value, types_of_numpy("ndarray")):
+    if is_array(value):
         return f"an array of {value.dtype} and shape {value.shape}"
     text = " ".join(repr(value).split())
     return text if len(text) <= 80 else text[:77] + "..."
@@ -67,7 +67,7 @@ def shown(value: object) -> str:
 
 def number(value: Any, name: str) -> float:
     """A finite number. Raises: UsageError."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, *types_of_numpy("integer", "floating"))):
+    if isinstance(value, bool) or not isinstance(value, or_of_numpy((int, float), "integer", "floating")):
         raise UsageError(f"{shown(value)} is no number", name)
     try:
         result = float(value)
@@ -118,7 +118,7 @@ def count(value: Any, name: str) -> int:
 
 def truth(value: Any, name: str) -> bool:
     """True or False. Raises: UsageError."""
-    if not isinstance(value, (bool, *types_of_numpy("bool_"))):
+    if not isinstance(value, or_of_numpy((bool,), "bool_")):
         raise UsageError(f"{shown(value)} is neither True nor False", name)
     return bool(value)
 
@@ -185,7 +185,7 @@ def pick(value: Selection | None, objects: int, name: str) -> _core.Pick:
     """Objects of so many: None for all, selections, or an array of truth values with an entry per object."""
     if value is None:
         return _core.Pick([], [])
-    if isinstance(value, types_of_numpy("ndarray")):
+    if is_array(value):
         if value.dtype != np.bool_ or value.shape != (objects,):
             raise UsageError(
                 f"{shown(value)} does not say which of {objects} objects are meant",

@@ -32,7 +32,7 @@ from strake._arguments import (
 )
 from strake._errors import UsageError
 from strake._model import Diagnostic, Model, model_core, optional_sag
-from strake._numpy import np, npt, types_of_numpy
+from strake._numpy import np, npt, or_of_numpy
 
 LINE_KINDS: tuple[str, ...] = tuple(_core.LINE_KINDS)
 """Names of the kinds of lines: what `kind` counts."""
@@ -283,7 +283,7 @@ def _two_layers(value: Any, name: str) -> bool:
 
 def _switch_or_length(value: Any, name: str) -> str:
     """As the program takes it."""
-    if isinstance(value, (bool, *types_of_numpy("bool_"))):
+    if isinstance(value, or_of_numpy((bool,), "bool_")):
         return "on" if value else ""
     return _length_text(value, name)
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeGuard
 
-__all__ = ["np", "npt", "types_of_numpy"]
+__all__ = ["is_array", "np", "npt", "or_of_numpy"]
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,6 +29,11 @@ else:
     np, npt = _Later("numpy"), _Later("numpy.typing")
 
 
-def types_of_numpy(*names: str) -> tuple[type, ...]:
-    """These types of NumPy; none where nobody has loaded it, so that no value can be of them."""
-    return tuple(getattr(np, name) for name in names) if "numpy" in sys.modules else ()
+def or_of_numpy(types: tuple[type, ...], *names: str) -> Any:
+    """These types and those of NumPy; without the latter where nobody has loaded it, so that no value can be of them."""
+    return (*types, *(getattr(np, name) for name in names)) if "numpy" in sys.modules else types
+
+
+def is_array(value: object) -> TypeGuard[npt.NDArray[Any]]:
+    """Whether a value is an array of NumPy."""
+    return isinstance(value, or_of_numpy((), "ndarray"))

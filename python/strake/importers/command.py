@@ -7,7 +7,6 @@ import argparse
 import gc
 import os
 import sys
-import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -107,6 +106,8 @@ def _converted(convert: Convert, job: Job) -> int:
         job.report.error(f"{failure.filename or job.input}: {failure.strerror or failure}", "check the file, rights and free space")
         return 1
     except Exception as failure:
+        import traceback
+
         traceback.print_exc(file=sys.stderr)
         job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
         return 1

@@ -3,37 +3,35 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strake.importers.diagonals import settled
+from strake.importers.digest import blake2b
 
 Color = tuple[float, float, float, float]
+NO_COLOR: Color = (0.8, 0.8, 0.8, 1.0)
 
 # Corners are rounded to 2^-12 mm, a quarter of the grid of the program, so that the same shape at two places of
 # its frame, whose doubles differ in the last digits, is one shape.
 _STEPS_PER_MM = 4096.0
 # So many triangles of small shapes are looked at together. Those of large ones take their time one by one as well.
-_MAX_TOGETHER = 4096
+_MAX_TOGETHER = 16384
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """Triangles of one colour. Corners are in the unit of the scene, colours red, green, blue and alpha in sRGB, 0 to 1."""
 
     vertices: ArrayLike
     triangles: ArrayLike
-    color: Color = (0.8, 0.8, 0.8, 1.0)
+    color: Color = NO_COLOR
 
 
-@dataclass(frozen=True)
-class PreparedPart:
+class PreparedPart(NamedTuple):
     """A part as the file has it."""
 
     positions: bytes
@@ -45,8 +43,7 @@ class PreparedPart:
     color: Color
 
 
-@dataclass(frozen=True)
-class PreparedShape:
+class PreparedShape(NamedTuple):
     """A shape around its middle. Equal shapes have equal keys, wherever in their frames they were."""
 
     parts: tuple[PreparedPart, ...]
@@ -55,8 +52,7 @@ class PreparedShape:
     sag_mm: float | None = None
 
 
-@dataclass(frozen=True)
-class Shape:
+class Shape(NamedTuple):
     """A shape of a scene: the number of its mesh, and the middle that was taken from its corners."""
 
     mesh: int
@@ -120,8 +116,7 @@ def around_middle(placement: NDArray[np.float64], middle: Sequence[float]) -> ND
     return result
 
 
-@dataclass(frozen=True)
-class _Piece:
+class _Piece(NamedTuple):
     """A part of a shape: its corners, those that triangles have and no others, its triangles by number of corner."""
 
     vertices: NDArray[np.float64]
@@ -144,7 +139,9 @@ class _Piece:
         return None
 
 
-def _together(pieces: Sequence[_Piece], before: list[PreparedShape | ValueError], first: int, unit_mm: float) -> list[PreparedShape | ValueError]:
+def _together(
+    pieces: Sequence[_Piece], before: list[PreparedShape | ValueError], first: int, unit_mm: float
+) -> list[PreparedShape | ValueError]:
     """Returns the shapes of these pieces in the places of what stands there, of which the first has the number `first`."""
     steps = _STEPS_PER_MM * unit_mm
     counts = [len(piece.vertices) for piece in pieces]
@@ -187,7 +184,7 @@ def _prepared(
 
 
 def _shape_of(parts: Sequence[PreparedPart], middle: Sequence[float], sag_mm: float | None) -> PreparedShape | ValueError:
-    digest = hashlib.blake2b(digest_size=16)
+    digest = blake2b(digest_size=16)
     if sag_mm is not None:
         digest.update(repr(float(sag_mm)).encode())
     for part in parts:

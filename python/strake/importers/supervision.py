@@ -9,14 +9,13 @@ import os
 import signal
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 # The status of a process whose function did not come to an end.
 _NO_STATUS = 70
 
 
-@dataclass(frozen=True)
-class Crash:
+class Crash(NamedTuple):
     """How a function in a process of its own ended: with a status, and with the name of a signal where it crashed."""
 
     status: int

@@ -13,8 +13,9 @@ import pytest
 pytest.importorskip("ifcopenshell")
 
 from strake.importers.ifc.chunks import Answer, Chunk, Converted
+from strake.importers.ifc.ends import Ended
 from strake.importers.ifc.kernels import CUT
-from strake.importers.ifc.workers import Ended, Workers
+from strake.importers.ifc.workers import Workers
 
 CRASHES, HANGS, RAISES, WAITS = 13, 17, 19, 99
 

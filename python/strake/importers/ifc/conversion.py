@@ -9,22 +9,26 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Again, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.ends import Convert, Ended
 from strake.importers.ifc.entity import Entity, Model, number_of
 from strake.importers.ifc.here import Here
 from strake.importers.ifc.kernels import CUT, EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
 from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.solids import manifold3d_files
-from strake.importers.ifc.workers import Ended, Workers
+from strake.importers.ifc.spatial import Parents
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
 from strake.importers.supervision import Attempt
+
+if TYPE_CHECKING:
+    from strake.importers.ifc.workers import Workers
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
@@ -36,8 +40,7 @@ _MAX_HERE, _MAX_BESIDE_OTHERS = 2000, 32
 _MAX_HELD_BYTES = 64 << 20
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(NamedTuple):
     """The shape of a product and where it is, in millimetres."""
 
     key: bytes
@@ -135,10 +138,11 @@ def convert_products(
     folder: Path,
     sag_m: float = SAG_M,
     attempt: Attempt | None = None,
+    parents: Parents | None = None,
 ) -> Conversion:
     """Converts the products, with chords no farther from their curves than `sag_m`. None can harm another, or the import."""
     result = Conversion(ShapeStore(folder))
-    circles = CircleFinder()
+    circles = CircleFinder(parents or Parents())
     faults = {product.id(): fault for product in products if (fault := circles.fault_of(product))}
     result.failed.update(faults)
     products = [product for product in products if product.id() not in faults]
@@ -154,7 +158,7 @@ def convert_products(
     convert = partial(convert_chunk, sag_m=sag_m)
     few = len(tasks) <= (_MAX_HERE if threads == 1 else _MAX_BESIDE_OTHERS)
     here = attempt if few and attempt is not None and not attempt.is_careful else None
-    with Workers(model, threads, convert=convert) if here is None else Here(model, here, convert) as workers:
+    with _workers(model, threads, convert) if here is None else Here(model, here, convert) as workers:
         for chunk in chunks_of(tasks, kernels_of):
             workers.add(chunk)
         for event in workers.answers():
@@ -175,6 +179,13 @@ def convert_products(
             del result.failed[product.id()]
             result.bodyless.append(product.id())
     return result
+
+
+def _workers(model: Model, threads: int, convert: Convert) -> Workers:
+    # They need several modules that small files do without.
+    from strake.importers.ifc.workers import Workers
+
+    return Workers(model, threads, convert=convert)
 
 
 def _keep(event: Converted, result: Conversion) -> None:

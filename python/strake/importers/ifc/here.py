@@ -8,18 +8,19 @@ from __future__ import annotations
 
 import signal
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 
-from strake.importers.ifc.chunks import Chunk
+from strake.importers.ifc.chunks import Answer, Batch, Chunk
+from strake.importers.ifc.ends import Convert, Ended, Event, answers_of, bounded_memory, missing_of, note_answers
 from strake.importers.ifc.entity import Model
-from strake.importers.ifc.workers import Convert, Ended, Event, answers_of, bounded_memory, missing_of, note_answers
 from strake.importers.supervision import Attempt
 
 # What works for so long without an answer, in seconds of CPU time, or waits for so long, is left to workers, which know better
 # what to do about it.
 MAX_SILENT_S = 2.0
 _MAX_WAITING_S = 30.0
+_TOGETHER_S = 0.5
 
 
 class Here:
@@ -31,6 +32,10 @@ class Here:
         self._convert = convert
         self._queue: deque[Chunk] = deque()
         self._limits = ExitStack()
+        # Small shapes of several chunks are prepared together.
+        self._batch = Batch(_TOGETHER_S)
+        self._open: list[Chunk] = []
+        self._got: set[int] = set()
 
     def __enter__(self) -> Here:
         for number in (signal.SIGPROF, signal.SIGALRM):
@@ -50,15 +55,22 @@ class Here:
 
     def answers(self) -> Iterator[Event]:
         """Yields what becomes of the chunks, until none is left."""
-        while self._queue:
-            chunk = self._queue.popleft()
-            got: set[int] = set()
-            _end_after(MAX_SILENT_S, _MAX_WAITING_S)
-            for answers in answers_of(self._convert, self._model, chunk):
-                note_answers(answers, got)
-                yield from answers
-                _end_after(MAX_SILENT_S, _MAX_WAITING_S)
-            yield Ended(chunk, missing_of(chunk, got))
+        _end_after(MAX_SILENT_S, _MAX_WAITING_S)
+        while self._queue or self._open:
+            if self._queue:
+                chunk = self._queue.popleft()
+                self._open.append(chunk)
+                for answers in answers_of(self._convert, self._model, chunk, self._batch):
+                    yield from self._noted(answers)
+            if not self._queue or self._batch.is_due():
+                yield from self._noted(self._batch.take())
+                yield from [Ended(chunk, missing_of(chunk, self._got)) for chunk in self._open]
+                self._open.clear()
+
+    def _noted(self, answers: Sequence[Answer]) -> Sequence[Answer]:
+        _end_after(MAX_SILENT_S, _MAX_WAITING_S)
+        note_answers(answers, self._got)
+        return answers
 
 
 def _end_after(working_s: float, waiting_s: float) -> None:

@@ -6,18 +6,16 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
-import resource
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any
 
-from strake.importers.ifc.chunks import Again, Answer, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.chunks import Answer, Chunk, convert_chunk
+from strake.importers.ifc.ends import Convert, Ended, Event, answers_of, bounded_memory, missing_of, note_answers
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT
 from strake.importers.supervision import end_with_parent, signal_name
@@ -31,20 +29,6 @@ MIN_SILENT_S = 8.0
 _TICK_S = 0.5
 # Who is silent for longer is looked at, which takes the system as long as an answer.
 _LOOKED_AT_S = 0.1
-
-
-@dataclass(frozen=True)
-class Ended:
-    """A chunk is done with. `missing` got no shape of its kernel; `fault` says why where the process did not live."""
-
-    chunk: Chunk
-    missing: tuple[int, ...]
-    fault: str = ""
-    hung: bool = False
-
-
-Event = Converted | Remark | Again | Ended
-Convert = Callable[[Model, Chunk], Iterator[list[Answer]]]
 
 
 @dataclass
@@ -157,7 +141,7 @@ class Workers:
         # goes on as a whole, and says nothing of the kernels that come after.
         if ended.chunk.kernel != CUT:
             self._silent_s = max(min(self._silent_s, MIN_SILENT_S), self._silent_s / 2)
-        return replace(ended, hung=True)
+        return ended._replace(hung=True)
 
     def _lost(self, worker: _Worker, fault: str) -> Ended:
         chunk = worker.chunk
@@ -181,45 +165,10 @@ def _cpu_seconds(process: int | None) -> float:
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def missing_of(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
-    """Returns the products of a chunk that have no shape."""
-    return tuple(number for number in chunk.products if number not in got)
-
-
-def note_answers(answers: Sequence[Answer], got: set[int]) -> None:
-    """Keeps up which products have a shape."""
-    for answer in answers:
-        if isinstance(answer, Converted):
-            if not answer.fault:
-                got.add(answer.product)
-        elif isinstance(answer, Again):
-            got -= set(answer.products)
-
-
-def answers_of(convert: Convert, model: Model, chunk: Chunk) -> Iterator[list[Answer]]:
-    """Yields the answers to a chunk. Whatever the library raises is a fault of this chunk."""
-    try:
-        yield from convert(model, chunk)
-    except Exception as fault:
-        yield [Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}")]
-
-
 def _end(worker: _Worker) -> None:
     worker.process.kill()
     worker.process.join()
     worker.connection.close()
-
-
-@contextmanager
-def bounded_memory() -> Iterator[None]:
-    """Lets this process have half of the machine's memory at most: a few lines of a file may ask for any amount."""
-    most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
-    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
 def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
