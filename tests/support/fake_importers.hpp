@@ -33,8 +33,7 @@ class FakeImporters : public testing::Test {
     settings_.folders = {bin_};
     settings_.cache = folder_.path() / "cache";
     settings_.silence_s = 20;
-    scene_ =
-        folder_.write("scene", triangle_glb(R"("nodes":[{"mesh":0,"extras":{"id":"T1"}}])"));
+    scene_ = folder_.write("scene", triangle_glb(R"("nodes":[{"mesh":0,"extras":{"id":"T1"}}])"));
   }
 
   /// Makes the importer of a suffix: a script, which knows $input, $output, $report and $threads.

@@ -239,8 +239,7 @@ bool wait_for_end(const RunningChild& child, double seconds) {
 
 ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
   const std::unique_ptr<RunningChild> child = start_child(program);
-  return child ? watch_child(*child, program, stop)
-               : ChildEnd{ChildEnd::How::not_started, 0, {}};
+  return child ? watch_child(*child, program, stop) : ChildEnd{ChildEnd::How::not_started, 0, {}};
 }
 
 std::string signal_text(int signal) {

@@ -30,8 +30,8 @@ struct ImportRunOptions {
   unsigned threads = 1;
   std::function<void(double)> progress = [](double /*done*/) {
   };  ///< told 0 to 1, on the calling thread
-  std::stop_token stop;      ///< of the whole run
-  std::stop_token given_up;  ///< of this file, because another has failed
+  std::stop_token stop;              ///< of the whole run
+  std::stop_token given_up;          ///< of this file, because another has failed
   const ImportHost* host = nullptr;  ///< what imports it together with others; none: itself alone
 };
 

@@ -148,8 +148,7 @@ ImportHosts hosts_for(std::span<const SceneJob* const> jobs) {
     if (files[job->program.file] < 2 || hosts.contains(job->program.file)) continue;
     const fs::path program = program_for_several(job->program);
     if (program.empty()) continue;
-    if (auto host = ImportHost::start(program))
-      hosts.emplace(job->program.file, std::move(host));
+    if (auto host = ImportHost::start(program)) hosts.emplace(job->program.file, std::move(host));
   }
   return hosts;
 }

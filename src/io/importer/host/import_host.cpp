@@ -130,7 +130,8 @@ bool ImportHost::order(std::string_view word, const fs::path& folder) const {
 
 bool ImportHost::takes(const ChildProgram& program) {
   return program.folder.string().find('\n') == std::string::npos &&
-         std::ranges::all_of(program.words, [](const std::string& word) { return is_utf8(word); }) &&
+         std::ranges::all_of(program.words,
+                             [](const std::string& word) { return is_utf8(word); }) &&
          is_utf8(program.log.string());
 }
 
