@@ -3,23 +3,20 @@
 
 from __future__ import annotations
 
-import inspect
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
-import numpy.typing as npt
-
 from strake import _core
 from strake._errors import UsageError
+from strake._numpy import is_array, np, npt, or_of_numpy
 
 Progress: TypeAlias = Callable[[float, str], object]
 Length: TypeAlias = float | str
 PathLike: TypeAlias = str | os.PathLike[str]
-Selection: TypeAlias = str | Sequence[str] | npt.NDArray[np.bool_]
+Selection: TypeAlias = "str | Sequence[str] | npt.NDArray[np.bool_]"
 
 MAX_THREADS = 1024
 MAX_COUNT = 2**32 - 1
@@ -38,6 +35,8 @@ def run_options(threads: int | None, progress: Progress | None) -> _core.RunOpti
 
 def options_of(function: Callable[..., Any], *others: str) -> dict[str, Any]:
     """What a function takes by name alone, with its defaults, but for some others."""
+    import inspect  # it is large, and who reads a model does not need it
+
     parameters = inspect.signature(function).parameters.values()
     return {one.name: one.default for one in parameters if one.kind is one.KEYWORD_ONLY and one.name not in others}
 
@@ -51,7 +50,7 @@ def check_names(given: Mapping[str, Any], options: Mapping[str, Any], function: 
 
 def thread_count(value: Any, name: str) -> int:
     """A number of threads. Raises: UsageError outside 1 to 1024."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+    if isinstance(value, bool) or not isinstance(value, or_of_numpy((int,), "integer")):
         raise UsageError(f"{shown(value)} is no whole number", name)
     if not 1 <= value <= MAX_THREADS:
         raise UsageError(f"{shown(value)} is no number of threads", name, f"write 1 to {MAX_THREADS}")
@@ -60,7 +59,7 @@ def thread_count(value: Any, name: str) -> int:
 
 def shown(value: object) -> str:
     """A value as messages show it: in a line, and short."""
-    if isinstance(value, np.ndarray):
+    if is_array(value):
         return f"an array of {value.dtype} and shape {value.shape}"
     text = " ".join(repr(value).split())
     return text if len(text) <= 80 else text[:77] + "..."
@@ -68,7 +67,7 @@ def shown(value: object) -> str:
 
 def number(value: Any, name: str) -> float:
     """A finite number. Raises: UsageError."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+    if isinstance(value, bool) or not isinstance(value, or_of_numpy((int, float), "integer", "floating")):
         raise UsageError(f"{shown(value)} is no number", name)
     try:
         result = float(value)
@@ -119,7 +118,7 @@ def count(value: Any, name: str) -> int:
 
 def truth(value: Any, name: str) -> bool:
     """True or False. Raises: UsageError."""
-    if not isinstance(value, (bool, np.bool_)):
+    if not isinstance(value, or_of_numpy((bool,), "bool_")):
         raise UsageError(f"{shown(value)} is neither True nor False", name)
     return bool(value)
 
@@ -186,7 +185,7 @@ def pick(value: Selection | None, objects: int, name: str) -> _core.Pick:
     """Objects of so many: None for all, selections, or an array of truth values with an entry per object."""
     if value is None:
         return _core.Pick([], [])
-    if isinstance(value, np.ndarray):
+    if is_array(value):
         if value.dtype != np.bool_ or value.shape != (objects,):
             raise UsageError(
                 f"{shown(value)} does not say which of {objects} objects are meant",

@@ -12,9 +12,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
-import numpy as np
-import numpy.typing as npt
-
 from strake import _core
 from strake._arguments import (
     Length,
@@ -39,6 +36,7 @@ from strake._arguments import (
 )
 from strake._errors import OutputError, UsageError
 from strake._model import Diagnostic, Model, _position, model_core, optional_sag
+from strake._numpy import np, npt
 
 if TYPE_CHECKING:
     import pandas

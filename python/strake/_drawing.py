@@ -7,9 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
 from strake import _core
 from strake._arguments import (
     Length,
@@ -35,6 +32,7 @@ from strake._arguments import (
 )
 from strake._errors import UsageError
 from strake._model import Diagnostic, Model, model_core, optional_sag
+from strake._numpy import np, npt, or_of_numpy
 
 LINE_KINDS: tuple[str, ...] = tuple(_core.LINE_KINDS)
 """Names of the kinds of lines: what `kind` counts."""
@@ -285,7 +283,7 @@ def _two_layers(value: Any, name: str) -> bool:
 
 def _switch_or_length(value: Any, name: str) -> str:
     """As the program takes it."""
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, or_of_numpy((bool,), "bool_")):
         return "on" if value else ""
     return _length_text(value, name)
 

@@ -10,9 +10,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
-import numpy as np
-import numpy.typing as npt
-
 from strake import _core
 from strake._arguments import (
     Length,
@@ -31,6 +28,7 @@ from strake._arguments import (
     truth,
 )
 from strake._errors import UsageError
+from strake._numpy import np, npt
 
 if TYPE_CHECKING:
     import trimesh
@@ -121,7 +119,7 @@ def _position(index: int, count: int) -> int:
     return i + count if i < 0 else i
 
 
-_Array = TypeVar("_Array", bound=npt.NDArray[Any])
+_Array = TypeVar("_Array", bound="npt.NDArray[Any]")
 
 
 def _kept(array: _Array) -> _Array:

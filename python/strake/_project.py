@@ -10,14 +10,12 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from strake import _core
 from strake._arguments import Length, PathLike, Progress, count, path, paths, run_options, some_paths, text, texts, words
 from strake._clash import clearance_text
 from strake._errors import InputError, UsageError
 from strake._model import Model
+from strake._numpy import np, npt
 from strake._program import run_program
 
 

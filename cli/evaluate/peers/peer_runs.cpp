@@ -79,6 +79,7 @@ class PeerRun {
         return fmt::format("ended by signal {}: {}", end.code, io::tail_of(end.output, kTail));
       case io::ChildEnd::How::refused:
       case io::ChildEnd::How::stopped:
+      case io::ChildEnd::How::lost:
       case io::ChildEnd::How::exited:
         break;
     }

@@ -13,7 +13,8 @@
         return run(convert)
 
 The program is called `strake-import-SUFFIX`, or `convert` is an entry point of the group `strake.importers` under the name of the
-suffix. What it is called with and what it answers is decision 0072.
+suffix. What it is called with and what it answers is decision 0072. `run_several` makes the program `strake-import-many-SUFFIX`,
+which reads several files after it has loaded its libraries once (decision 0126).
 """
 
 import os
@@ -25,6 +26,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from strake.importers.command import Job, run
 from strake.importers.report import ImportFailed, Report
 from strake.importers.scene_writer import Group, SceneWriter
+from strake.importers.several import run_several
 from strake.importers.shapes import Part, PreparedShape, Shape, prepare_shape
 
 __all__ = [
@@ -38,4 +40,5 @@ __all__ = [
     "Shape",
     "prepare_shape",
     "run",
+    "run_several",
 ]

@@ -7,7 +7,6 @@ import argparse
 import gc
 import os
 import sys
-import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from strake.importers.report import ImportFailed, Report
 from strake.importers.scene_writer import SceneTooLarge, SceneWriter
-from strake.importers.supervision import crash_of
+from strake.importers.supervision import Attempt, crash_of
 
 
 @dataclass
@@ -38,6 +37,9 @@ class Job:
     unit: str = ""
     depends_on: list[str] = field(default_factory=list)
     map_place: dict[str, Any] | None = None
+    attempt: Attempt = field(default_factory=Attempt)
+    # What need not be taken apart before the process ends, which gives its memory back at once.
+    kept: list[Any] = field(default_factory=list)
 
     def scene(self, unit_mm: float = 1.0, up: str = "z", sag_mm: float | None = None) -> SceneWriter:
         """Begins the scene; `sag_mm` as SceneWriter has it."""
@@ -78,6 +80,9 @@ def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
     with Report(options.report) as report:
         job = Job(options.input, options.output, report, max(1, options.threads), options.sag)
         crash = crash_of(lambda: _converted(convert, job))
+        if crash.name and job.attempt.repeat():
+            report.begin_anew()
+            crash = crash_of(lambda: _converted(convert, job))
         if crash.name:
             report.error(f"reading it ended with {crash.name}", "the file may be damaged: export it again, or in another version")
         return crash.status
@@ -101,6 +106,8 @@ def _converted(convert: Convert, job: Job) -> int:
         job.report.error(f"{failure.filename or job.input}: {failure.strerror or failure}", "check the file, rights and free space")
         return 1
     except Exception as failure:
+        import traceback
+
         traceback.print_exc(file=sys.stderr)
         job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
         return 1

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
@@ -26,8 +27,11 @@ class Report:
     """Writes the lines of the report. Each is on disk when its call returns, whatever becomes of the process then."""
 
     def __init__(self, path: Path) -> None:
+        self._path = path
         self._file = path.open("ab", buffering=0)
         self._shown = -1.0
+        # Lines that an attempt before this one wrote, which ended in the middle of its work.
+        self._said: Counter[bytes] = Counter()
 
     def __enter__(self) -> Report:
         return self
@@ -41,6 +45,10 @@ class Report:
         if done >= self._shown + _PROGRESS_STEP or (done == 1.0 and self._shown < 1.0):
             self._shown = done
             self._line({"progress": round(done, 4)})
+
+    def begin_anew(self) -> None:
+        """Has what is there already not said again: the work begins anew."""
+        self._said = Counter(self._path.read_bytes().splitlines(keepends=True))
 
     def alive(self) -> None:
         """Says again how much is done, so that work that takes long at one place does not count as hung."""
@@ -84,4 +92,8 @@ class Report:
         self._line(line)
 
     def _line(self, line: dict[str, Any]) -> None:
-        self._file.write(json.dumps(line, ensure_ascii=False).encode("utf-8", "replace") + b"\n")
+        text = json.dumps(line, ensure_ascii=False).encode("utf-8", "replace") + b"\n"
+        if self._said[text] > 0:
+            self._said[text] -= 1
+            return
+        self._file.write(text)

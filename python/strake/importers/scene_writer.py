@@ -3,22 +3,22 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
+import math
 import os
 import shutil
 import struct
 import tempfile
 from array import array
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from strake.importers.digest import blake2b
 from strake.importers.shapes import Color, Part, PreparedPart, PreparedShape, Shape, around_middle, prepare_shape
 
 Attributes = Mapping[str, Any]
@@ -26,12 +26,11 @@ Attributes = Mapping[str, Any]
 _MAX_BYTES = 2**32 - 1
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125
-# json.dumps would make an encoder for each of many short values.
-_encode = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode
+_encode_any = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode
+_encode_text = json.encoder.encode_basestring
 
 
-@dataclass(frozen=True)
-class Group:
+class Group(NamedTuple):
     """A group of a scene: its number among the groups."""
 
     number: int
@@ -154,7 +153,7 @@ class SceneWriter:
         self._objects_of[None if parent is None else parent.number].append(number)
 
     def _piece(self, part: PreparedPart) -> tuple[int, int]:
-        key = hashlib.blake2b(part.positions + b"|" + part.indices, digest_size=16).digest()
+        key = blake2b(part.positions + b"|" + part.indices, digest_size=16).digest()
         known = self._pieces.get(key)
         if known is not None:
             return known
@@ -337,8 +336,14 @@ def _material(color: Color) -> dict[str, Any]:
 
 
 def _json(value: Any) -> str:
-    if type(value) is _Encoded:
-        return value
-    if isinstance(value, dict) and any(type(v) is _Encoded for v in value.values()):
-        return "{" + ",".join(f"{_encode(str(k))}:{v if type(v) is _Encoded else _json(v)}" for k, v in value.items()) + "}"
-    return _encode(value)
+    """Writes short values, which most are, itself: json.dumps makes an encoder for each."""
+    kind = type(value)
+    if kind is _Encoded:
+        return str(value)
+    if kind is str:
+        return _encode_text(value)
+    if kind is int or (kind is float and math.isfinite(value)):
+        return repr(value)
+    if kind is dict and all(type(key) is str for key in value):
+        return "{" + ",".join([f"{_encode_text(key)}:{_json(one)}" for key, one in value.items()]) + "}"
+    return _encode_any(value)

@@ -4,22 +4,41 @@
 from __future__ import annotations
 
 import ctypes
+import mmap
 import os
 import signal
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 # The status of a process whose function did not come to an end.
 _NO_STATUS = 70
 
 
-@dataclass(frozen=True)
-class Crash:
+class Crash(NamedTuple):
     """How a function in a process of its own ended: with a status, and with the name of a signal where it crashed."""
 
     status: int
     name: str = ""
+
+
+class Attempt:
+    """What a process that may crash tells the one that watches it: whether it is worth to begin anew, with more care."""
+
+    def __init__(self) -> None:
+        self._shared = mmap.mmap(-1, mmap.PAGESIZE)
+        self.is_careful = not hasattr(os, "fork")
+
+    def may_be_repeated(self, may: bool) -> None:
+        """Says whether, if it crashes now, it is to be begun anew."""
+        self._shared[0] = may
+
+    def repeat(self) -> bool:
+        """Whether it is to be begun anew, which it then is with care."""
+        again = bool(self._shared[0]) and not self.is_careful
+        self._shared[0] = False
+        self.is_careful = True
+        return again
 
 
 def crash_of(function: Callable[[], int]) -> Crash:

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ pytest.importorskip("manifold3d", reason="needs manifold3d: pip install 'strake[
 
 from conversions import convert
 from ifc_model import IfcModel
-from strake.importers.ifc import conversion
+from strake.importers.ifc import conversion, workers
 from strake.importers.ifc.chunks import Answer, Chunk, Converted, convert_chunk
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT, EXACT, kernels_for
@@ -139,7 +140,7 @@ def shapes(model: Model, numbers: Sequence[int], kernel: str) -> dict[int, tuple
     """What a kernel makes of products."""
     found: dict[int, tuple[Converted, PreparedShape | None]] = {}
     by_key: dict[bytes, PreparedShape] = {}
-    for answer in convert_chunk(model, Chunk(tuple(numbers), kernel), FINE_M):
+    for answer in chain.from_iterable(convert_chunk(model, Chunk(tuple(numbers), kernel), FINE_M)):
         if isinstance(answer, Converted):
             if answer.shape is not None:
                 by_key[answer.shape.key] = answer.shape
@@ -405,13 +406,13 @@ def test_a_cut_that_hangs_is_made_by_open_cascade_with_all_beside_it(tmp_path: P
     for wall in walls:
         model.void(wall, model.body(model.extrusion((1000, 400, 1000), (0, 0, 900))))
 
-    def hanging(read: Model, chunk: Chunk, sag_m: float) -> Iterator[Answer]:
+    def hanging(read: Model, chunk: Chunk, sag_m: float) -> Iterator[list[Answer]]:
         while chunk.kernel == CUT:
             pass
         yield from convert_chunk(read, chunk, sag_m)
 
     monkeypatch.setattr(conversion, "convert_chunk", hanging)
-    monkeypatch.setattr(conversion, "Workers", partial(Workers, silent_s=2))
+    monkeypatch.setattr(workers, "Workers", partial(Workers, silent_s=2))
     read = Model(model.file)
     with Report(tmp_path / "report") as report:
         made = conversion.convert_products(read, [read.by_id(wall.id()) for wall in walls], 1, report, tmp_path)

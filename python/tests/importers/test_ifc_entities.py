@@ -8,7 +8,7 @@ import pytest
 
 ifcopenshell = pytest.importorskip("ifcopenshell")
 
-from strake.importers.ifc import attributes, solids  # noqa: E402
+from strake.importers.ifc import attributes, solids, units  # noqa: E402
 from strake.importers.ifc.entity import Model  # noqa: E402
 
 SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3_ADD2")
@@ -30,7 +30,7 @@ def test_properties_have_their_values_where_they_are_looked_for(schema: str) -> 
         assert names[attributes._PROPERTY_NAME] == "Name"
         assert list(declared.subtypes()) == []  # so that the name of the class says it all
         if kind == "IfcPropertySingleValue":
-            assert names[attributes._NOMINAL_VALUE] == "NominalValue" and names[attributes._UNIT] == "Unit"
+            assert names[units.NOMINAL_VALUE] == "NominalValue" and names[units.UNIT] == "Unit"
 
 
 @pytest.mark.parametrize("schema", ["IFC2X3", "IFC4"])

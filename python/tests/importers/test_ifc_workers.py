@@ -13,13 +13,14 @@ import pytest
 pytest.importorskip("ifcopenshell")
 
 from strake.importers.ifc.chunks import Answer, Chunk, Converted
+from strake.importers.ifc.ends import Ended
 from strake.importers.ifc.kernels import CUT
-from strake.importers.ifc.workers import Ended, Workers
+from strake.importers.ifc.workers import Workers
 
 CRASHES, HANGS, RAISES, WAITS = 13, 17, 19, 99
 
 
-def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
+def fake(_: object, chunk: Chunk) -> Iterator[list[Answer]]:
     for number in chunk.products:
         if number == CRASHES:
             os.kill(os.getpid(), signal.SIGKILL)
@@ -29,7 +30,7 @@ def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
             time.sleep(1000)
         if number == RAISES:
             raise RuntimeError("bad product")
-        yield Converted(number, b"k", (0, 0, 0), b"", None, chunk.kernel)
+        yield [Converted(number, b"k", (0, 0, 0), b"", None, chunk.kernel)]
 
 
 @pytest.mark.parametrize("count", [1, 3])

@@ -15,6 +15,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <system_error>
 #include <thread>
 
@@ -57,7 +58,10 @@ class SpawnOptions {
  public:
   explicit SpawnOptions(const ChildProgram& program) {
     ::posix_spawn_file_actions_init(&files_);
-    ::posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (program.input < 0)
+      ::posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    else
+      ::posix_spawn_file_actions_adddup2(&files_, program.input, STDIN_FILENO);
     constexpr mode_t kMode = 0644;
     ::posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, program.log.c_str(),
                                        O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
@@ -104,31 +108,37 @@ class SpawnOptions {
   posix_spawnattr_t attributes_{};
 };
 
-/// A child that has begun. None outlives the value, whatever is thrown meanwhile.
-class Child {
+/// A child of this process. None outlives the value, whatever is thrown meanwhile.
+class OwnChild final : public RunningChild {
  public:
-  Child(pid_t process, KilledWith killed_with) : process_(process), killed_with_(killed_with) {}
-  ~Child() {
-    if (process_ > 0) end();
+  OwnChild(pid_t process, KilledWith killed_with) : process_(process), killed_with_(killed_with) {}
+  ~OwnChild() override {
+    if (process_ > 0) wait_for_status();
   }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  Child(Child&&) = delete;
-  Child& operator=(Child&&) = delete;
+  OwnChild(const OwnChild&) = delete;
+  OwnChild& operator=(const OwnChild&) = delete;
+  OwnChild(OwnChild&&) = delete;
+  OwnChild& operator=(OwnChild&&) = delete;
 
-  /// Whether it has ended. It stays known to the system until end(), so that what it left running
-  /// can still be found by its group.
-  [[nodiscard]] bool has_ended() const {
+  /// It stays known to the system until end(), so that what it left running can still be found by
+  /// its group.
+  [[nodiscard]] bool has_ended() const override {
     siginfo_t info{};
     const int fault =
         ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT);
     return fault != 0 || info.si_pid == process_;
   }
-  void kill() const {
+  void kill() const override {
     ::kill(killed_with_ == KilledWith::its_group ? -process_ : process_, SIGKILL);
   }
-  /// Kills what belongs to it, itself if it has not ended, and returns how it ended.
-  int end() {
+  ChildEnd end() override {
+    const int status = wait_for_status();
+    if (WIFEXITED(status)) return {ChildEnd::How::exited, WEXITSTATUS(status), {}};
+    return {ChildEnd::How::killed, WTERMSIG(status), {}};
+  }
+
+ private:
+  int wait_for_status() {
     int status = 0;
     kill();
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -137,7 +147,6 @@ class Child {
     return status;
   }
 
- private:
   pid_t process_;
   KilledWith killed_with_;
 };
@@ -177,8 +186,8 @@ class Log {
 };
 
 /// Waits until a child has ended or has to end before; returns why, if it has to.
-std::optional<ChildEnd::How> wait_for(const Child& child, const ChildProgram& program, Log& log,
-                                      const std::stop_token& stop) {
+std::optional<ChildEnd::How> wait_for(const RunningChild& child, const ChildProgram& program,
+                                      Log& log, const std::stop_token& stop) {
   constexpr auto kPollInterval = std::chrono::milliseconds(5);
   // A program that was told to stop may end before this thread looks again.
   const std::stop_callback at_once(stop, [&] { child.kill(); });
@@ -194,31 +203,43 @@ std::optional<ChildEnd::How> wait_for(const Child& child, const ChildProgram& pr
   return std::nullopt;
 }
 
-/// Returns how a child ended, which is no more then.
-ChildEnd end_of(Child& child, const std::optional<ChildEnd::How>& why,
-                const std::stop_token& stop) {
-  const int status = child.end();
-  if (why) return {*why, 0, {}};
-  if (WIFEXITED(status)) return {ChildEnd::How::exited, WEXITSTATUS(status), {}};
-  const int signal = WTERMSIG(status);
-  if (signal == SIGKILL && stop.stop_requested()) return {ChildEnd::How::stopped, 0, {}};
-  return {ChildEnd::How::killed, signal, {}};
-}
-
 }  // namespace
 
-ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
+std::unique_ptr<RunningChild> start_child(const ChildProgram& program) {
   // A shell that can be started says nothing of whether the program can.
-  if (needs_shell(program) && ::access(program.words.front().c_str(), X_OK) != 0)
-    return {ChildEnd::How::not_started, 0, {}};
+  if (needs_shell(program) && ::access(program.words.front().c_str(), X_OK) != 0) return nullptr;
   const pid_t process = SpawnOptions(program).start(words_of(program));
-  if (process < 0) return {ChildEnd::How::not_started, 0, {}};
-  Child child(process, program.killed_with);
+  if (process < 0) return nullptr;
+  return std::make_unique<OwnChild>(process, program.killed_with);
+}
+
+ChildEnd watch_child(RunningChild& child, const ChildProgram& program,
+                     const std::stop_token& stop) {
   Log log(program);
   const std::optional<ChildEnd::How> why = wait_for(child, program, log, stop);
-  ChildEnd end = end_of(child, why, stop);
+  ChildEnd end = child.end();
+  if (why)
+    end = {*why, 0, {}};
+  else if (end.how == ChildEnd::How::killed && end.code == SIGKILL && stop.stop_requested())
+    end = {ChildEnd::How::stopped, 0, {}};
   end.output = log.end();
   return end;
+}
+
+bool wait_for_end(const RunningChild& child, double seconds) {
+  constexpr auto kPollInterval = std::chrono::milliseconds(1);
+  const auto begin = std::chrono::steady_clock::now();
+  while (!child.has_ended()) {
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - begin;
+    if (age.count() >= seconds) return false;
+    std::this_thread::sleep_for(kPollInterval);
+  }
+  return true;
+}
+
+ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
+  const std::unique_ptr<RunningChild> child = start_child(program);
+  return child ? watch_child(*child, program, stop) : ChildEnd{ChildEnd::How::not_started, 0, {}};
 }
 
 std::string signal_text(int signal) {

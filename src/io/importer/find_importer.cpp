@@ -83,6 +83,15 @@ std::optional<ImporterProgram> find_importer(const FileBytes& file,
   return std::nullopt;
 }
 
+fs::path program_for_several(const ImporterProgram& importer) {
+  // No suffix has a stroke in it, so that no file is read by this name.
+  const std::string one = std::string(kProgram) + '-';
+  const std::string name = importer.file.filename().string();
+  if (!name.starts_with(one)) return {};
+  fs::path several = importer.file.parent_path() / (one + "many-" + name.substr(one.size()));
+  return is_program(several) ? several : fs::path();
+}
+
 std::vector<ImporterProgram> all_importers(std::span<const fs::path> folders) {
   std::map<std::string, fs::path> found;
   const std::string prefix = std::string(kProgram) + '-';

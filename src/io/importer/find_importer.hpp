@@ -30,6 +30,10 @@ struct ImporterProgram {
 [[nodiscard]] std::optional<ImporterProgram> find_importer(
     const FileBytes& file, std::span<const std::filesystem::path> folders);
 
+/// Returns the program beside an importer that does for several files what it does for one; empty
+/// where there is none.
+[[nodiscard]] std::filesystem::path program_for_several(const ImporterProgram& importer);
+
 /// Returns all importers in these folders, the first of each suffix, in the order of suffixes;
 /// strake-import, which knows more, has none and comes last.
 [[nodiscard]] std::vector<ImporterProgram> all_importers(

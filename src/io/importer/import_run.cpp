@@ -108,12 +108,17 @@ class ImportRun {
     child.max_log_bytes = kMaxLog;
     child.may_go_on = [this] { return may_go_on(); };
     last_progress_ = std::chrono::steady_clock::now();
-    const ChildEnd end = run_child(child, options_.stop);
+    const ChildEnd end = options_.host != nullptr && ImportHost::takes(child)
+                             ? options_.host->run(child, options_.stop)
+                             : run_child(child, options_.stop);
+    is_lost_ = end.how == ChildEnd::How::lost;
     while (!is_report_too_long() && read_report()) {
     }
     report_.end();
     return outcome(end);
   }
+  /// Whether nothing came of it since a host has ended, and not for anything in the file.
+  [[nodiscard]] bool is_lost() const { return is_lost_; }
 
  private:
   [[nodiscard]] bool is_report_too_long() const { return file_.bytes() > kMaxReport; }
@@ -147,7 +152,7 @@ class ImportRun {
   ImportReport report_;
   std::chrono::steady_clock::time_point last_progress_;
   std::uintmax_t scene_bytes_ = 0;
-  bool is_too_long_ = false;
+  bool is_too_long_ = false, is_lost_ = false;
 };
 
 /// Returns the error of an importer, with what it printed last.
@@ -188,6 +193,8 @@ Result<SceneFacts> ImportRun::outcome(const ChildEnd& end) {
       return ended("crashed on the file: it was ended by " + signal_text(end.code), end,
                    "try a newer version of the importer, or convert the file to glTF by another "
                    "program");
+    case ChildEnd::How::lost:
+      return ended("is gone, and what it made with it", end, "try again");
     case ChildEnd::How::stopped:
     case ChildEnd::How::exited:
       break;
@@ -206,7 +213,17 @@ Result<SceneFacts> ImportRun::outcome(const ChildEnd& end) {
 fs::path scene_file(const fs::path& folder) { return folder / "scene.glb"; }
 
 Result<SceneFacts> run_importer(const ImportTask& task, const ImportRunOptions& options) {
-  return ImportRun(task, options).run();
+  ImportRun run(task, options);
+  Result<SceneFacts> facts = run.run();
+  if (!run.is_lost() || options.stop.stop_requested() || options.given_up.stop_requested())
+    return facts;
+  std::error_code failed;
+  for (fs::directory_iterator at(task.folder, failed), end; !failed && at != end;
+       at.increment(failed))
+    fs::remove_all(at->path(), failed);
+  ImportRunOptions alone = options;
+  alone.host = nullptr;
+  return ImportRun(task, alone).run();
 }
 
 }  // namespace strake::io

@@ -2,12 +2,15 @@
 #include "io/importer/scene_maker.hpp"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <stop_token>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "io/gltf/container.hpp"
+#include "io/importer/host/import_host.hpp"
 #include "io/source/input_file.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/progress.hpp"
@@ -133,6 +136,23 @@ Result<ImportedScene> SceneMaker::make(const SceneJob& job, const ImportRunOptio
 
 namespace {
 
+/// By the programs of importers.
+using ImportHosts = std::map<fs::path, std::unique_ptr<ImportHost>>;
+
+/// Starts what imports several files of one importer; a file that is alone has its importer.
+ImportHosts hosts_for(std::span<const SceneJob* const> jobs) {
+  std::map<fs::path, std::size_t> files;
+  for (const SceneJob* const job : jobs) ++files[job->program.file];
+  ImportHosts hosts;
+  for (const SceneJob* const job : jobs) {
+    if (files[job->program.file] < 2 || hosts.contains(job->program.file)) continue;
+    const fs::path program = program_for_several(job->program);
+    if (program.empty()) continue;
+    if (auto host = ImportHost::start(program)) hosts.emplace(job->program.file, std::move(host));
+  }
+  return hosts;
+}
+
 /// What is reported of files that are imported at the same time.
 std::string phase_of(std::span<const SceneJob* const> jobs) {
   return jobs.size() == 1 ? "import " + jobs.front()->file.filename().string()
@@ -159,6 +179,7 @@ ImportedScenes SceneMaker::make_all(std::span<const SceneJob> jobs,
   const auto workers = static_cast<std::size_t>(parallel::workers_of(context));
   const auto threads =
       static_cast<unsigned>(std::max<std::size_t>(1, workers / std::min(workers, to_make.size())));
+  const ImportHosts hosts = hosts_for(to_make);
   std::vector<std::stop_source> given_up(to_make.size());
   const Status done = parallel::for_each(
       context, {.name = "import files", .n = to_make.size()}, [&](std::size_t i) {
@@ -166,10 +187,13 @@ ImportedScenes SceneMaker::make_all(std::span<const SceneJob> jobs,
         std::uint64_t reported = 0;
         const auto progress = [&](double part) {
           const auto parts = static_cast<std::uint64_t>(part * kParts);
-          shown.add(parts - std::exchange(reported, parts));
+          // A file that lost its host begins anew.
+          if (parts > reported) shown.add(parts - std::exchange(reported, parts));
         };
         Result<ImportedScene>& scene = scenes.at(to_make[i]->key);
-        scene = make(*to_make[i], {threads, progress, context.stop, given_up[i].get_token()});
+        const auto host = hosts.find(to_make[i]->program.file);
+        scene = make(*to_make[i], {threads, progress, context.stop, given_up[i].get_token(),
+                                   host == hosts.end() ? nullptr : host->second.get()});
         if (scene) return;
         for (std::size_t later = i + 1; later < given_up.size(); ++later)
           given_up[later].request_stop();

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from strake.importers.command import Job, run
 from strake.importers.ifc.library import load_ifcopenshell
+from strake.importers.several import run_several
 
 
 def import_ifc(job: Job) -> None:
@@ -23,3 +24,13 @@ def import_ifc(job: Job) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """The program `strake-import-ifc`."""
     return run(import_ifc, arguments)
+
+
+def main_of_several() -> int:
+    """The program `strake-import-many-ifc`."""
+    return run_several(import_ifc, _load)
+
+
+def _load() -> None:
+    load_ifcopenshell()
+    from strake.importers.ifc import convert  # noqa: F401

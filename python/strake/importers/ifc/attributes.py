@@ -25,8 +25,8 @@ _QUANTITIES = {
     "IfcQuantityCount": ("CountValue", None),
     "IfcQuantityNumber": ("NumberValue", None),
 }
-# Where all versions have them in IfcProperty and IfcPropertySingleValue.
-_PROPERTY_NAME, _NOMINAL_VALUE, _UNIT = 0, 2, 3
+# Where all versions have it in IfcProperty.
+_PROPERTY_NAME = 0
 _OF_ALL_SETS = {"GlobalId", "OwnerHistory", "Name", "Description"}
 # Several names in one value: a pattern finds each.
 _BETWEEN = "; "
@@ -52,16 +52,18 @@ class AttributeReader:
             value = product.get(name)
             if value not in (None, ""):
                 result[name] = value
-        definitions, kind = _definitions_of(product), _type_of(product)
+        defining = product.get("IsDefinedBy") or ()
+        definitions, kind = _definitions_in(defining), _type_in((*(product.get("IsTypedBy") or ()), *defining))
+        associations = product.get("HasAssociations") or ()
         if kind is not None:
             result["Type"] = kind.Name or kind.is_a()
             if result.get("PredefinedType") in (None, "NOTDEFINED") and kind.get("PredefinedType"):
                 result["PredefinedType"] = kind.PredefinedType
         for name, value in (
-            ("Material", self._material(product, kind)),
+            ("Material", self._material(associations, kind)),
             ("Layer", self._layer(product)),
             *_assigned(product).items(),
-            ("Classification", _joined(_classifications(product))),
+            ("Classification", _joined(_classifications(associations))),
         ):
             if value:
                 result[name] = value
@@ -71,7 +73,7 @@ class AttributeReader:
 
     def sets_of(self, owner: Entity) -> dict[str, Any]:
         """Returns the property and quantity sets of a group: not those of its type, which are about how it is drawn."""
-        return self._property_sets(_definitions_of(owner), None)
+        return self._property_sets(_definitions_in(owner.get("IsDefinedBy") or ()), None)
 
     def length(self, value: float) -> Any:
         """Returns a length of the project's unit as an attribute."""
@@ -84,8 +86,9 @@ class AttributeReader:
         if known is None:
             merged = {name: dict(values) for name, values in self._type_sets(kind).items()}
             for definition in definitions:
-                if definition.Name or not definition.is_a("IfcPropertySetDefinition"):
-                    merged.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
+                name = definition.get("Name")
+                if name or not definition.is_a("IfcPropertySetDefinition"):
+                    merged.setdefault(name or definition.is_a(), {}).update(self._set(definition))
             known = {name: encoded(values) for name, values in merged.items() if values}
             # Those of a type alone are requested again and again.
             if not definitions:
@@ -109,7 +112,7 @@ class AttributeReader:
             if definition.is_a("IfcElementQuantity"):
                 known = self._quantities(definition.Quantities, 0)
             elif definition.is_a("IfcPropertySet"):
-                known = self._properties(definition.HasProperties, 0)
+                known = self._properties(definition.get("HasProperties"), 0)
             else:
                 known = self._predefined(definition)
             if len(self._sets) >= _MAX_SETS:
@@ -120,10 +123,10 @@ class AttributeReader:
     def _properties(self, properties: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
         for item in properties or ():
-            kind = item.is_a()
+            kind = item.data.is_a()
             if kind == "IfcPropertySingleValue":
                 # Nearly all are of this kind.
-                value = self._units.value(item.at(_NOMINAL_VALUE), item.at(_UNIT))
+                value = self._units.single(item)
             elif kind == "IfcPropertyEnumeratedValue":
                 value = _single(self._units.value(list(item.EnumerationValues or ())))
             elif kind == "IfcPropertyListValue":
@@ -136,7 +139,7 @@ class AttributeReader:
             else:
                 continue
             if value not in (None, {}, []):
-                result[str(item.at(_PROPERTY_NAME))] = value
+                result[str(item.data.get_argument(_PROPERTY_NAME))] = value
         return result
 
     def _quantities(self, quantities: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
@@ -173,9 +176,9 @@ class AttributeReader:
             self._declared[kind] = known
         return known
 
-    def _material(self, product: Entity, kind: Entity | None) -> str:
-        for owner in (product, kind):
-            for relation in (owner.get("HasAssociations") if owner is not None else None) or ():
+    def _material(self, associations: Iterable[Entity], kind: Entity | None) -> str:
+        for own in (True, False):
+            for relation in associations if own else (kind.get("HasAssociations") if kind is not None else None) or ():
                 if relation.is_a("IfcRelAssociatesMaterial") and relation.RelatingMaterial is not None:
                     material = relation.RelatingMaterial
                     if material.id() not in self._materials:
@@ -184,6 +187,8 @@ class AttributeReader:
         return ""
 
     def _layer(self, product: Entity) -> str:
+        if not self._layers:
+            return ""
         names = []
         for representation in product.Representation.Representations or ():
             for item in (representation, *(representation.Items or ())):
@@ -199,11 +204,11 @@ def _layers_of_items(model: Model) -> dict[int, list[str]]:
     return result
 
 
-def _definitions_of(product: Entity) -> list[Entity]:
+def _definitions_in(relations: Iterable[Entity]) -> list[Entity]:
     definitions: list[Entity] = []
-    for relation in product.get("IsDefinedBy") or ():
+    for relation in relations:
         if relation.is_a("IfcRelDefinesByProperties"):
-            definition = relation.RelatingPropertyDefinition
+            definition = relation.get("RelatingPropertyDefinition")
             if definition is None:
                 continue
             if definition.is_a("IfcPropertySetDefinitionSet"):
@@ -213,9 +218,9 @@ def _definitions_of(product: Entity) -> list[Entity]:
     return sorted(definitions, key=number_of)
 
 
-def _type_of(product: Entity) -> Entity | None:
+def _type_in(relations: Iterable[Entity]) -> Entity | None:
     # IFC2x3 has the relation among those of properties.
-    for relation in (*(product.get("IsTypedBy") or ()), *(product.get("IsDefinedBy") or ())):
+    for relation in relations:
         if relation.is_a("IfcRelDefinesByType"):
             kind: Entity | None = relation.RelatingType
             return kind
@@ -233,9 +238,9 @@ def _assigned(product: Entity) -> dict[str, str]:
     return {kind: _joined(found) for kind, found in names.items()}
 
 
-def _classifications(product: Entity) -> list[str]:
+def _classifications(associations: Iterable[Entity]) -> list[str]:
     names = []
-    for relation in product.get("HasAssociations") or ():
+    for relation in associations:
         if relation.is_a("IfcRelAssociatesClassification") and relation.RelatingClassification is not None:
             reference = relation.RelatingClassification
             names.append(

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import math
 import re
+import struct
+import time
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
@@ -19,27 +20,32 @@ from strake.importers.ifc.faces import Faces, faces_of
 from strake.importers.ifc.kernels import CUT, SAG_M, geometry_settings, shapes_of
 from strake.importers.ifc.pinched import outlines_of, split_face
 from strake.importers.ifc.solids import Mesh
-from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
+from strake.importers.shapes import NO_COLOR, Color, Part, PreparedShape, prepare_shapes
 
 # The fault of a shape without a triangle.
 EMPTY = "nothing is left of it"
 # What IfcOpenShell says of a face that it leaves out; the instance of the message is the face.
 _FACE_LEFT_OUT = "Failed to convert face"
 _MM_PER_M = 1000.0
+# Answers come together that come within so many seconds: each by itself takes time of both who gives and who gets it.
+_TOGETHER_S = 0.05
+_MAX_TRIANGLES = 50_000
 
 
-@dataclass(frozen=True)
-class Chunk:
-    """Products by number, which are converted in one go by one kernel."""
+class Chunk(NamedTuple):
+    """Products by number, which are converted in one go by one kernel.
+
+    `watched`: each is answered at once, so that after a crash it is known at which the kernel was.
+    """
 
     products: tuple[int, ...]
     kernel: str
     attempt: int = 0
+    watched: bool = False
 
 
-@dataclass(frozen=True)
-class Converted:
-    """What became of one product. `shape` is there once for each shape of a chunk."""
+class Converted(NamedTuple):
+    """What became of one product. `shape` is there once for each shape of a chunk, `placement` are 16 doubles, rows first."""
 
     product: int
     key: bytes
@@ -50,8 +56,7 @@ class Converted:
     fault: str = ""
 
 
-@dataclass(frozen=True)
-class Remark:
+class Remark(NamedTuple):
     """A fault that IfcOpenShell found of a product; product 0: of the chunk."""
 
     product: int
@@ -59,8 +64,7 @@ class Remark:
     message: str
 
 
-@dataclass(frozen=True)
-class Again:
+class Again(NamedTuple):
     """These products are converted once more: what became of them before does not count."""
 
     products: tuple[int, ...]
@@ -69,57 +73,148 @@ class Again:
 Answer = Converted | Remark | Again
 
 
-def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
+def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M, batch: Batch | None = None) -> Iterator[list[Answer]]:
     """Yields what becomes of each product that gets a shape, then what is to be said of any; the last that is said of one
-    counts.
+    counts. Answers come together, but for those of a chunk that is watched, and where they would be long in coming.
 
-    Raises whatever IfcOpenShell raises, and may end the process.
+    Products may stay in a batch that is given, and are answered when it is taken. Raises whatever IfcOpenShell raises, and may end the
+    process.
     """
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
-    if chunk.kernel == CUT:
-        yield from _cut(model, chunk, sag_m, log)
-        return
+    last = batch is None
+    batch = batch or Batch()
+    try:
+        yield from (_cut if chunk.kernel == CUT else _made)(model, chunk, sag_m, log, batch)
+    except Exception:
+        # What was made before stays.
+        yield [*batch.take()]
+        raise
+    if last:
+        yield [*batch.take()]
+
+
+def _made(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Answer]]:
     keys: dict[int, bytes] = {}
-    for converted in _converted_by(model, chunk, sag_m, log):
-        keys[converted.product] = converted.key
-        yield converted
+    for converted in _converted_by(model, chunk, sag_m, log, batch):
+        keys.update((one.product, one.key) for one in converted)
+        yield [*converted]
     remarks = list(_remarks(log, chunk))
+    if not remarks:
+        return
+    converted = batch.take()
+    keys.update((one.product, one.key) for one in converted)
     mended = _mended(model, log, {remark.product for remark in remarks})
-    yield from (remark for remark in remarks if remark.product not in mended)
+    yield [*converted, *(remark for remark in remarks if remark.product not in mended)]
     if mended:
         # What is said of a shape is said of the first that has it.
         shapes = {keys[product] for product in mended if keys.get(product)}
         again = mended | {product for product, key in keys.items() if key in shapes}
         log.clear()
-        rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt)
-        yield Again(rest.products)
-        yield from _converted_by(model, rest, sag_m, log)
-        yield from _remarks(log, rest)
+        rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt, chunk.watched)
+        yield [Again(rest.products)]
+        for converted in _converted_by(model, rest, sag_m, log, batch):
+            yield [*converted]
+        yield [*batch.take(), *_remarks(log, rest)]
 
 
-def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
+class Batch:
+    """Products that have a shape of a kernel, until they are answered together."""
+
+    def __init__(self, together_s: float = _TOGETHER_S) -> None:
+        self._together_s = together_s
+        self._began = time.monotonic()
+        self._products: list[tuple[int, str, bytes, str]] = []
+        self._new: dict[str, tuple[Sequence[Part], float | None]] = {}
+        self._known: dict[str, tuple[bytes, tuple[float, float, float]] | str] = {}
+        self._triangles = 0
+        self._number = 0
+
+    def next_number(self) -> int:
+        """Returns a number that no other call gets."""
+        self._number += 1
+        return self._number
+
+    def has(self, name: str) -> bool:
+        """Whether there is a shape of that name."""
+        return name in self._new or name in self._known
+
+    def add_shape(self, name: str, parts: Sequence[Part], sag_mm: float | None) -> None:
+        """Adds a shape; one without a triangle is none."""
+        if parts:
+            self._new[name] = parts, sag_mm
+            self._triangles += sum(np.size(part.triangles) // 3 for part in parts)
+        else:
+            self._known[name] = EMPTY
+
+    def add(self, product: int, name: str, placement: bytes, kernel: str) -> None:
+        """Adds a product of a shape; without a placement it has none that is finite."""
+        self._products.append((product, name, placement, kernel))
+
+    def is_due(self) -> bool:
+        """Whether those who wait should get what there is."""
+        return self._triangles > _MAX_TRIANGLES or time.monotonic() - self._began > self._together_s
+
+    def take(self) -> list[Converted]:
+        """Returns what becomes of the products, and begins anew."""
+        shapes = dict(zip(self._new, prepare_shapes([*self._new.values()]), strict=True))
+        for name, made in shapes.items():
+            self._known[name] = str(made) if isinstance(made, ValueError) else (made.key, made.middle)
+        answers = []
+        for product, name, placement, kernel in self._products:
+            known = self._known[name]
+            if isinstance(known, str) or not placement:
+                fault = known if isinstance(known, str) else "its placement is not finite"
+                answers.append(Converted(product, b"", (0, 0, 0), b"", None, kernel, fault))
+                continue
+            sent = shapes.pop(name, None)
+            new = sent if isinstance(sent, PreparedShape) else None
+            answers.append(Converted(product, *known, placement, new, kernel))
+        # A shape of which no product is placed yet comes with the first that is.
+        self._new = {name: self._new[name] for name, made in shapes.items() if isinstance(made, PreparedShape)}
+        self._products = []
+        self._triangles = 0
+        self._began = time.monotonic()
+        return answers
+
+
+def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Converted]]:
     iterator = shapes_of(model, chunk.products, geometry_settings(sag_m), chunk.kernel, log)
-    known: dict[str, PreparedShape | str] = {}
+    # Names of shapes are those of this iterator.
+    own = f"{batch.next_number()} "
     going = iterator.initialize()
     while going:
         element = iterator.get()
-        yield _converted(model, element, known, chunk.kernel, sag_m)
+        name, product = own + element.geometry.id, element.id
+        if not batch.has(name):
+            batch.add_shape(name, _parts(element.geometry), _sag_mm(model.by_id(product), sag_m))
+        batch.add(product, name, _placement(element.transformation.matrix), chunk.kernel)
+        if chunk.watched or batch.is_due():
+            yield batch.take()
         going = bool(iterator.next())
 
 
-def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
-    known: set[bytes] = set()
+def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Answer]]:
     for cut in cut_products(model, chunk.products, sag_m, log, _color):
         fault = cut.fault or (EMPTY if not cut.pieces else "")
         if fault:
-            yield Converted(cut.product, b"", (0, 0, 0), b"", None, chunk.kernel, fault)
+            yield [Converted(cut.product, b"", (0, 0, 0), b"", None, chunk.kernel, fault)]
             continue
-        shape = prepare_shape(_parts_of_pieces(cut.pieces), sag_mm=_sag_mm(model.by_id(cut.product), sag_m))
-        placement = cut.placement.copy()
-        placement[:3, 3] *= _MM_PER_M
-        yield Converted(cut.product, shape.key, shape.middle, placement.tobytes(), None if shape.key in known else shape, chunk.kernel)
-        known.add(shape.key)
+        name = f"cut {cut.product}"
+        batch.add_shape(name, _parts_of_pieces(cut.pieces), _sag_mm(model.by_id(cut.product), sag_m))
+        batch.add(cut.product, name, _placement(cut.placement.T.ravel().tolist()), chunk.kernel)
+        if chunk.watched or batch.is_due():
+            yield [*batch.take()]
+
+
+def _placement(matrix: Sequence[float]) -> bytes:
+    """Returns a matrix of the kernel, column by column and in metres, as answers have it; nothing where it is not finite."""
+    if not all(map(math.isfinite, matrix)):
+        return b""
+    rows = [matrix[4 * column + row] for row in range(4) for column in range(4)]
+    for at in (3, 7, 11):
+        rows[at] *= _MM_PER_M
+    return struct.pack("=16d", *rows)
 
 
 def _parts_of_pieces(pieces: Sequence[tuple[Mesh, Color]]) -> list[Part]:
@@ -152,26 +247,6 @@ def _mended(model: Model, log: Any, doubtful: Set[int]) -> set[int]:
     return mended
 
 
-def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float) -> Converted:
-    name = element.geometry.id
-    first = name not in known
-    if first:
-        try:
-            if len(element.geometry.faces_buffer) == 0:
-                raise ValueError(EMPTY)
-            known[name] = prepare_shape(_parts(element.geometry), sag_mm=_sag_mm(model.by_id(element.id), sag_m))
-        except ValueError as fault:
-            known[name] = str(fault)
-    shape = known[name]
-    placement = np.array(element.transformation.matrix, dtype=np.float64).reshape(4, 4).T.copy()
-    placement[:3, 3] *= _MM_PER_M
-    if isinstance(shape, str):
-        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, shape)
-    if not np.isfinite(placement).all():
-        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, "its placement is not finite")
-    return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
-
-
 def _sag_mm(product: Entity, sag_m: float) -> float | None:
     """Returns how far the triangles are from the surfaces at most: what the kernel was asked for where any is curved."""
     try:
@@ -182,16 +257,18 @@ def _sag_mm(product: Entity, sag_m: float) -> float | None:
 
 
 def _parts(geometry: Any) -> Sequence[Part]:
-    """Returns the triangles of each style."""
+    """Returns the triangles of each style; nothing where there are none."""
+    if len(geometry.faces_buffer) == 0:
+        return []
     vertices: NDArray[np.float64] = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3) * _MM_PER_M
-    triangles: NDArray[np.int32] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3)
+    triangles: NDArray[np.int64] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3).astype(np.int64)
     styles: NDArray[np.int32] = np.frombuffer(geometry.material_ids_buffer, dtype=np.int32)
     colors = [_color(material) for material in geometry.materials]
     if len(styles) != len(triangles) or not colors:
         return [Part(vertices, triangles)]
     by_color: dict[Color, list[int]] = {}
     for style in sorted(set(styles.tolist())):
-        color = colors[style] if 0 <= style < len(colors) else Part.color
+        color = colors[style] if 0 <= style < len(colors) else NO_COLOR
         by_color.setdefault(color, []).append(style)
     if len(by_color) == 1:
         return [Part(vertices, triangles, next(iter(by_color)))]

@@ -9,29 +9,38 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Again, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.ends import Convert, Ended
 from strake.importers.ifc.entity import Entity, Model, number_of
+from strake.importers.ifc.here import Here
 from strake.importers.ifc.kernels import CUT, EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
 from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.solids import manifold3d_files
-from strake.importers.ifc.workers import Ended, Workers
+from strake.importers.ifc.spatial import Parents
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
+from strake.importers.supervision import Attempt
+
+if TYPE_CHECKING:
+    from strake.importers.ifc.workers import Workers
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
 _MIN_IN_CHUNK = 16
 _MAX_CHUNKS = 256
+# So many tasks at most are done by this process itself: alone, or where there are others.
+_MAX_HERE, _MAX_BESIDE_OTHERS = 2000, 32
+# Memory that shapes may have before they go to disk.
+_MAX_HELD_BYTES = 64 << 20
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(NamedTuple):
     """The shape of a product and where it is, in millimetres."""
 
     key: bytes
@@ -45,15 +54,22 @@ class Placed:
 
 
 class ShapeStore:
-    """Shapes on disk until the scene is written in its order."""
+    """Shapes until the scene is written in its order: small ones as they are, so far as there are few, the others on disk."""
 
     def __init__(self, folder: Path) -> None:
         self._file = tempfile.TemporaryFile(dir=folder)
         self._places: dict[bytes, tuple[int, int]] = {}
+        self._held: dict[bytes, PreparedShape] = {}
+        self._held_bytes = 0
 
     def add(self, shape: PreparedShape) -> None:
         """Keeps a shape, if there is no equal one."""
-        if shape.key in self._places:
+        if shape.key in self._held or shape.key in self._places:
+            return
+        size = sum(len(part.positions) + len(part.indices) for part in shape.parts)
+        if self._held_bytes + size <= _MAX_HELD_BYTES:
+            self._held[shape.key] = shape
+            self._held_bytes += size
             return
         data = pickle.dumps(shape, pickle.HIGHEST_PROTOCOL)
         self._file.seek(0, 2)
@@ -62,6 +78,8 @@ class ShapeStore:
 
     def get(self, key: bytes) -> PreparedShape:
         """Returns a shape that was added."""
+        if key in self._held:
+            return self._held[key]
         offset, size = self._places[key]
         self._file.seek(offset)
         shape = pickle.loads(self._file.read(size))
@@ -113,11 +131,18 @@ def chunks_of(tasks: Sequence[tuple[int, ...]], kernels_of: Mapping[int, tuple[s
 
 
 def convert_products(
-    model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path, sag_m: float = SAG_M
+    model: Model,
+    products: Sequence[Entity],
+    threads: int,
+    report: Report,
+    folder: Path,
+    sag_m: float = SAG_M,
+    attempt: Attempt | None = None,
+    parents: Parents | None = None,
 ) -> Conversion:
     """Converts the products, with chords no farther from their curves than `sag_m`. None can harm another, or the import."""
     result = Conversion(ShapeStore(folder))
-    circles = CircleFinder()
+    circles = CircleFinder(parents or Parents())
     faults = {product.id(): fault for product in products if (fault := circles.fault_of(product))}
     result.failed.update(faults)
     products = [product for product in products if product.id() not in faults]
@@ -130,7 +155,10 @@ def convert_products(
     if not cutting:
         result.slow_cuts = sum(kernels_for(model.by_id(number), True)[0] == CUT for number in kernels_of)
     result.bodyless = [product.id() for product in products if product.id() not in kernels_of]
-    with Workers(model, threads, convert=partial(convert_chunk, sag_m=sag_m)) as workers:
+    convert = partial(convert_chunk, sag_m=sag_m)
+    few = len(tasks) <= (_MAX_HERE if threads == 1 else _MAX_BESIDE_OTHERS)
+    here = attempt if few and attempt is not None and not attempt.is_careful else None
+    with _workers(model, threads, convert) if here is None else Here(model, here, convert) as workers:
         for chunk in chunks_of(tasks, kernels_of):
             workers.add(chunk)
         for event in workers.answers():
@@ -153,6 +181,13 @@ def convert_products(
     return result
 
 
+def _workers(model: Model, threads: int, convert: Convert) -> Workers:
+    # They need several modules that small files do without.
+    from strake.importers.ifc.workers import Workers
+
+    return Workers(model, threads, convert=convert)
+
+
 def _keep(event: Converted, result: Conversion) -> None:
     if event.fault:
         # Workers count it among those without a shape, so that the next kernel tries.
@@ -163,17 +198,21 @@ def _keep(event: Converted, result: Conversion) -> None:
     result.placed[event.product] = Placed(event.key, event.middle, event.placement, event.kernel)
 
 
-def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers, result: Conversion) -> None:
+def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers | Here, result: Conversion) -> None:
     """Sends what a chunk left behind on: to the next kernel, or after a crash apart from the product that it was at."""
     chunk, missing = ended.chunk, ended.missing
+    if ended.fault and missing and not chunk.watched and len(chunk.products) > 1 and not (ended.hung and chunk.kernel == CUT):
+        # Answers that were to come together are lost: it is not known at which product it was.
+        workers.add(Chunk(missing, chunk.kernel, chunk.attempt, watched=True))
+        return
     if ended.fault and len(chunk.products) > 1 and missing:
         # Products are converted in their order, so that the first one that is missing is to be suspected.
         # But for cuts, before which all bodies are made: any may have hung.
         suspect, rest = (missing, ()) if ended.hung and chunk.kernel == CUT else (missing[:1], missing[1:])
         if rest:
-            workers.add(Chunk(rest, chunk.kernel, chunk.attempt))
+            workers.add(Chunk(rest, chunk.kernel, chunk.attempt, chunk.watched))
         if not ended.hung:
-            workers.add(Chunk(suspect, chunk.kernel, chunk.attempt))
+            workers.add(Chunk(suspect, chunk.kernel, chunk.attempt, chunk.watched))
             return
         missing = suspect  # what hung for so long does not get the same again
     onward: dict[str, list[int]] = {}

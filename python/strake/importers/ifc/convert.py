@@ -20,7 +20,7 @@ from strake.importers.ifc.kernels import SAG_M
 from strake.importers.ifc.products import Ids, Products, choose_products, report_left_out
 from strake.importers.ifc.solids import manifold3d_files
 from strake.importers.ifc.source import open_model, origin_of
-from strake.importers.ifc.spatial import SpatialGroups
+from strake.importers.ifc.spatial import Parents, SpatialGroups
 from strake.importers.ifc.units import Units
 from strake.importers.report import Report
 from strake.importers.scene_writer import Group
@@ -34,6 +34,7 @@ def convert(job: Job) -> None:
     with tempfile.TemporaryDirectory(prefix=".strake-ifc-", dir=job.output.parent) as name:
         folder = Path(name)
         model = open_model(job.input, job.report, folder)
+        job.kept.append(model)
         job.made_by = f"ifcopenshell {ifcopenshell.version}"
         job.format = model.schema_identifier
         job.depends_on = [ifcopenshell.__file__, ifcopenshell_wrapper.__file__, *manifold3d_files()]
@@ -42,20 +43,22 @@ def convert(job: Job) -> None:
         products = choose_products(model)
         sys.stdout.flush()
         sag_m = SAG_M if job.sag_mm is None else job.sag_mm / 1000
-        conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m)
+        parents = Parents()
+        conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m, job.attempt, parents)
         if conversion.slow_cuts:
             what = f"{conversion.slow_cuts} products with openings or half-spaces are cut by Open CASCADE"
             job.report.note("ifc-slow-cuts", f"{what}; manifold3d takes a tenth of its time: pip install 'strake[ifc]'")
-        _write(job, model, units, products, conversion)
+        job.kept.append(conversion)
+        _write(job, model, units, products, conversion, parents)
 
 
-def _write(job: Job, model: Model, units: Units, products: Products, conversion: Conversion) -> None:
+def _write(job: Job, model: Model, units: Units, products: Products, conversion: Conversion, parents: Parents) -> None:
     report = job.report
     ids = Ids(report)
     attributes = AttributeReader(model, units)
     with job.scene(unit_mm=1.0) as scene:
         origin = origin_of(model)
-        groups = SpatialGroups(model, scene, attributes, origin)
+        groups = SpatialGroups(model, scene, attributes, origin, parents)
         for product in products.solid:
             number = product.id()
             placed = conversion.placed.get(number)

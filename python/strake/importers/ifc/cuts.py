@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,7 @@ _MAX_CUTS = 1000
 _MAX_DEPTH = 100
 
 
-@dataclass(frozen=True)
-class Cut:
+class Cut(NamedTuple):
     """What is left of a product in its own frame, in millimetres, and its placement as the kernel has it."""
 
     product: int
@@ -47,8 +46,7 @@ class _Plan:
     styled: dict[int, int] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class _Body:
+class _Body(NamedTuple):
     items: dict[int, tuple[Mesh, Color]]
     placement: Any
 

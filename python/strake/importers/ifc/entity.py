@@ -12,15 +12,26 @@ from typing import Any
 import ifcopenshell
 from ifcopenshell import ifcopenshell_wrapper
 
-_Raw: Any = ifcopenshell_wrapper.entity_instance
+# What IfcOpenShell has of an entity.
+RawEntity: Any = ifcopenshell_wrapper.entity_instance
 # Where a class has an attribute: its number, or one of these.
 _NOWHERE, _INVERSE = -1, -2
 _STATED_CATEGORY, _INVERSE_CATEGORY = 1, 2
 _ABSENT = object()
 # What the class of IfcOpenShell calls when it has found out that a name is inverse.
-_inverse: Any = getattr(_Raw, "_get_inverse", getattr)
-# By class with its schema, as IFC4.IfcWall, then by name.
-_places: dict[str, dict[str, int]] = {}
+_inverse: Any = getattr(RawEntity, "_get_inverse", getattr)
+
+
+class Tables:
+    """What the schema of a model says of its classes, so far as it was asked for."""
+
+    __slots__ = ("kinds", "places")
+
+    def __init__(self) -> None:
+        # By class, then by name of an attribute.
+        self.places: dict[str, dict[str, int]] = {}
+        # By a class and one that it may be made from.
+        self.kinds: dict[tuple[str, str], bool] = {}
 
 
 class Entity:
@@ -29,10 +40,11 @@ class Entity:
     One that the class does not have raises AttributeError, what the file states wrongly RuntimeError.
     """
 
-    __slots__ = ("_of_class", "data")
+    __slots__ = ("_of_class", "_tables", "data")
 
-    def __init__(self, data: Any) -> None:
+    def __init__(self, data: Any, tables: Tables) -> None:
         self.data = data
+        self._tables = tables
         self._of_class: dict[str, int] | None = None
 
     def __getattr__(self, name: str) -> Any:
@@ -46,24 +58,41 @@ class Entity:
         than to catch it."""
         of_class = self._of_class
         if of_class is None:
-            of_class = self._of_class = _places.setdefault(self.data.is_a(True), {})
+            kind = self.data.is_a()
+            of_class = self._tables.places.get(kind)
+            if of_class is None:
+                of_class = self._tables.places[kind] = {}
+            self._of_class = of_class
         place = of_class.get(name)
         if place is None:
             place = of_class[name] = self._place_of(name)
         if place >= 0:
-            return _wrapped(self.data.get_argument(place))
-        return tuple(map(Entity, _inverse(self.data, name))) if place == _INVERSE else otherwise
+            return self.at(place)
+        if place == _INVERSE:
+            tables = self._tables
+            return tuple([Entity(one, tables) for one in _inverse(self.data, name)])
+        return otherwise
 
     def at(self, place: int) -> Any:
         """Returns what the class states at a place, counted from 0: quicker than by name, where all versions have it there."""
-        return _wrapped(self.data.get_argument(place))
+        value = self.data.get_argument(place)
+        kind = type(value)
+        if kind is RawEntity:
+            return Entity(value, self._tables)
+        return self._wrapped(value) if kind is tuple else value
 
     def __repr__(self) -> str:
         return repr(self.data)
 
     def is_a(self, kind: str | None = None) -> Any:
         """Returns the name of the class; with a name, whether it is of that class or of one made from it."""
-        return self.data.is_a() if kind is None else self.data.is_a(kind)
+        own = self.data.is_a()
+        if kind is None or kind == own:
+            return own if kind is None else True
+        known = self._tables.kinds.get((own, kind))
+        if known is None:
+            known = self._tables.kinds[own, kind] = bool(self.data.is_a(kind))
+        return known
 
     def id(self) -> int:
         """Returns the number of the entity in the file, #1 and so on."""
@@ -72,6 +101,12 @@ class Entity:
     def attribute_names(self) -> list[str]:
         """Returns the names of what the class itself states, inverse attributes not among them."""
         return [str(name) for name in self.data.get_attribute_names()]
+
+    def _wrapped(self, values: tuple[Any, ...]) -> tuple[Any, ...]:
+        tables = self._tables
+        return tuple(
+            [Entity(one, tables) if type(one) is RawEntity else self._wrapped(one) if type(one) is tuple else one for one in values]
+        )
 
     def _place_of(self, name: str) -> int:
         category = self.data.get_attribute_category(name)
@@ -85,23 +120,17 @@ class Model:
 
     def __init__(self, file: ifcopenshell.file) -> None:
         self.file: Any = file
+        self._tables = Tables()
         self.schema = str(file.schema)
         self.schema_identifier = str(file.schema_identifier)
 
     def by_type(self, kind: str) -> list[Entity]:
         """Returns the entities of a class and of those made from it."""
-        return [Entity(data) for data in self.file.by_type(kind)]
+        return [Entity(data, self._tables) for data in self.file.by_type(kind)]
 
     def by_id(self, number: int) -> Entity:
         """Returns the entity of a number."""
-        return Entity(self.file.by_id(number))
-
-
-def _wrapped(value: Any) -> Any:
-    kind = type(value)
-    if kind is _Raw:
-        return Entity(value)
-    return tuple(map(_wrapped, value)) if kind is tuple else value
+        return Entity(self.file.by_id(number), self._tables)
 
 
 def is_a(entity: Entity, kind: str) -> bool:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,7 @@ from strake.importers.report import Report
 _MAX_SCALE = 0.01
 
 
-@dataclass(frozen=True)
-class MapConversion:
+class MapConversion(NamedTuple):
     """The conversion of a file."""
 
     crs: str

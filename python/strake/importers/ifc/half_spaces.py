@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +19,7 @@ _MAX_MM = 1e12
 _MAX_SEGMENTS = 2000
 
 
-@dataclass(frozen=True)
-class Axes:
+class Axes(NamedTuple):
     """A place and directions x, y, z, as rows."""
 
     place: Corners

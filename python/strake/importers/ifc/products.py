@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from strake.importers.ifc.entity import Entity, Model, is_a, number_of
-from strake.importers.ifc.spatial import parent_of
+from strake.importers.ifc.spatial import Parents
 from strake.importers.report import Report
 
 # What is no matter: rooms, holes, what is only drawn, axes, limits between rooms, loads and the members that carry them
@@ -31,8 +31,7 @@ _LEFT_OUT = (
 )
 
 
-@dataclass(frozen=True)
-class Products:
+class Products(NamedTuple):
     """The products of a model that should have a body, in the order of their numbers."""
 
     solid: list[Entity]
@@ -82,14 +81,15 @@ def report_left_out(products: Products, bodyless: int, report: Report) -> None:
 class CircleFinder:
     """Finds products that are placed relative to themselves, or are parts of themselves: kernels would never end."""
 
-    def __init__(self) -> None:
+    def __init__(self, parents: Parents) -> None:
+        self._parents = parents
         self._good: set[int] = set()
 
     def fault_of(self, product: Entity) -> str:
         """Returns what is wrong with a product; empty where nothing is."""
         if not self._ends(product.get("ObjectPlacement"), lambda at: at.get("PlacementRelTo")):
             return "it is placed relative to itself"
-        if not self._ends(product, parent_of):
+        if not self._ends(product, self._parents.of):
             return "it is a part of itself"
         return ""
 

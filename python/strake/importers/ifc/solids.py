@@ -10,11 +10,12 @@ from __future__ import annotations
 import bisect
 import importlib.util
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from strake.importers.diagonals import crossed
 
 Corners = NDArray[np.float64]
 Triangles = NDArray[np.int64]
@@ -35,8 +36,7 @@ class Unfit(ValueError):
     """Why a body is not cut here."""
 
 
-@dataclass(frozen=True)
-class Mesh:
+class Mesh(NamedTuple):
     """Triangles of a body, in millimetres. They are seen from outside against the clock."""
 
     vertices: Corners
@@ -140,8 +140,8 @@ def _apart(numbers: Iterable[float]) -> list[float]:
 
 def _normals(corners: Corners) -> Corners:
     """Returns the unit normals of triangles; zero where there is none."""
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(cross, axis=1, keepdims=True)
+    cross = crossed(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.sqrt(np.add.reduce(cross * cross, axis=1, keepdims=True))
     normals: Corners = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
     return normals
 
@@ -164,6 +164,8 @@ def _lie_nearly_on_each_other(meshes: Sequence[Mesh], bodies: int) -> bool:
         return True
     for axis in range(3):
         level = np.flatnonzero(flat[:, axis])
+        if len(level) < 2:
+            continue
         doubtful = level[_beside_others(corners[level, 0, axis])]
         if faces.any_near(doubtful[of_cutter[doubtful]], doubtful, axis):
             return True
@@ -180,8 +182,7 @@ def _beside_others(heights: NDArray[np.float64]) -> NDArray[np.bool_]:
     return beside
 
 
-@dataclass(frozen=True)
-class _Faces:
+class _Faces(NamedTuple):
     """Triangles, by which body each is of."""
 
     corners: Corners
@@ -193,11 +194,15 @@ class _Faces:
 
         `axis`: all are level there, and equal ones do not count.
         """
+        if not len(these) or not len(those):
+            return False
         if len(these) * len(those) > _MAX_PAIRS:
             raise Unfit("cutters of too many faces that lie aslant or nearly on each other")
         like = np.abs(self.normals[these] @ self.normals[those].T) > _LEVEL
         first, second = np.nonzero(like & (self.owner[these][:, None] != self.owner[those][None, :]))
         one, other = these[first], those[second]
+        if not len(one):
+            return False
         low, high = self.corners.min(axis=1) - _MERGED_MM, self.corners.max(axis=1) + _MERGED_MM
         near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
         if axis is not None:

@@ -26,23 +26,28 @@ _MAX_LEVELS = 32
 class SpatialGroups:
     """Makes the groups that products need."""
 
-    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader, origin: dict[str, str]) -> None:
+    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader, origin: dict[str, str], parents: Parents) -> None:
         self._scene = scene
+        self._parents = parents
         self._origin = origin
         self._attributes = attributes
         self._groups: dict[int, Group] = {}
+        # The group of what has this above it, where its chain comes to an end.
+        self._above: dict[int, Group] = {}
         self._map = map_attributes(model)
 
     def above(self, product: Entity) -> Group | None:
         """Returns the group that a product is in."""
         chain: list[Entity] = []
         visited = {product.id()}
-        at = parent_of(product)
+        at = first = self._parents.of(product)
+        if first is not None and (whole := self._above.get(first.id())) is not None:
+            return whole
         while at is not None and at.id() not in visited and len(chain) < _MAX_LEVELS:
             visited.add(at.id())
             if at.is_a("IfcProduct"):
                 chain.append(at)
-            at = parent_of(at)
+            at = self._parents.of(at)
         group: Group | None = None
         for entity in reversed(chain):
             known = self._groups.get(entity.id())
@@ -51,6 +56,8 @@ class SpatialGroups:
                 known = self._scene.group(entity.Name or entity.is_a(), group, stated)
                 self._groups[entity.id()] = known
             group = known
+        if first is not None and group is not None and at is None:
+            self._above[first.id()] = group
         return group
 
     def _of(self, entity: Entity) -> dict[str, Any]:
@@ -67,6 +74,20 @@ class SpatialGroups:
         for name, values in self._attributes.sets_of(entity).items():
             result.setdefault(name, values)
         return result
+
+
+class Parents:
+    """What entities are in or a part of; each is looked for once."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, Entity | None] = {}
+
+    def of(self, entity: Entity) -> Entity | None:
+        """Returns what an entity is in or a part of."""
+        number = entity.id()
+        if number not in self._known:
+            self._known[number] = parent_of(entity)
+        return self._known[number]
 
 
 def parent_of(entity: Entity) -> Entity | None:

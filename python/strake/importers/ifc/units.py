@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.entity import Entity, Model, RawEntity
 from strake.importers.report import Report
 
 _PREFIXES = {
@@ -32,6 +32,8 @@ _POWERS = {
 # numbers for millimetres.
 _PLAIN = {"m2", "m3", "kg", "g", "s", "rad", "sr", "K", "degC", "A", "V", "W", "N", "Pa", "J", "Hz", "lx", "lm", "cd"}
 _NO_VALUE = object()
+# Where all versions have them in IfcPropertySingleValue.
+NOMINAL_VALUE, UNIT = 2, 3
 # The kind of unit that values of a measure have.
 MEASURES = {
     "IfcLengthMeasure": "LENGTHUNIT",
@@ -62,6 +64,8 @@ class Units:
 
     def __init__(self, model: Model, report: Report) -> None:
         self._names: dict[str, str] = {}
+        # By classes of values, as IfcLengthMeasure, which have one value: the unit of the project.
+        self._name_of_measure: dict[str, str] = {}
         for unit in _units_of(model):
             kind = getattr(unit, "UnitType", None)
             if isinstance(kind, str):
@@ -82,8 +86,33 @@ class Units:
             return [self.value(item, own_unit, kind) for item in value]
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             return value
-        name = unit_name(own_unit) if own_unit is not None else self._names.get(kind or "", "m" if kind == "LENGTHUNIT" else "")
+        name = unit_name(own_unit) if own_unit is not None else self._name_of(kind)
         return self._number(value, name)
+
+    def single(self, item: Entity) -> Any:
+        """Returns the value of an IfcPropertySingleValue. Half of a file are such: it is asked for no more than that takes."""
+        data = item.data
+        nominal = data.get_argument(NOMINAL_VALUE)
+        if nominal is None:
+            return None
+        name = self._name_of_measure.get(nominal.is_a()) if isinstance(nominal, RawEntity) else None
+        if name is None or data.get_argument(UNIT) is not None:
+            return self._any_single(item)
+        value = nominal.get_argument(0)
+        kind = type(value)
+        if kind is int or kind is float:
+            return self._number(value, name)
+        return value if kind is str or kind is bool else self._any_single(item)
+
+    def _any_single(self, item: Entity) -> Any:
+        value = item.at(NOMINAL_VALUE)
+        if isinstance(value, Entity) and value.get("wrappedValue", _NO_VALUE) is not _NO_VALUE:
+            measure = value.is_a()
+            self._name_of_measure[measure] = self._name_of(MEASURES.get(measure))
+        return self.value(value, item.at(UNIT))
+
+    def _name_of(self, kind: str | None) -> str:
+        return self._names.get(kind or "", "m" if kind == "LENGTHUNIT" else "")
 
     def length(self, value: float) -> Any:
         """Returns a length of the project's unit as an attribute."""

@@ -6,17 +6,16 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
-import resource
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any
 
-from strake.importers.ifc.chunks import Again, Answer, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.chunks import Answer, Chunk, convert_chunk
+from strake.importers.ifc.ends import Convert, Ended, Event, answers_of, bounded_memory, missing_of, note_answers
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT
 from strake.importers.supervision import end_with_parent, signal_name
@@ -30,20 +29,6 @@ MIN_SILENT_S = 8.0
 _TICK_S = 0.5
 # Who is silent for longer is looked at, which takes the system as long as an answer.
 _LOOKED_AT_S = 0.1
-
-
-@dataclass(frozen=True)
-class Ended:
-    """A chunk is done with. `missing` got no shape of its kernel; `fault` says why where the process did not live."""
-
-    chunk: Chunk
-    missing: tuple[int, ...]
-    fault: str = ""
-    hung: bool = False
-
-
-Event = Converted | Remark | Again | Ended
-Convert = Callable[[Model, Chunk], Iterator[Answer]]
 
 
 @dataclass
@@ -103,7 +88,7 @@ class Workers:
             self._hand_out()
             ready = wait([worker.connection for worker in self._workers if worker.chunk], timeout=_TICK_S)
             for worker in [w for w in self._workers if w.connection in ready]:
-                yield self._heard(worker)
+                yield from self._heard(worker)
             if not ready:
                 yield None
             for worker in [w for w in self._workers if w.chunk and w.is_silent_for(self._silent_s)]:
@@ -134,27 +119,21 @@ class Workers:
         self._workers.append(worker)
         return worker
 
-    def _heard(self, worker: _Worker) -> Event:
+    def _heard(self, worker: _Worker) -> list[Event]:
         try:
-            answer: Any = worker.connection.recv()
+            answers: list[Answer] | None = worker.connection.recv()
         except (EOFError, OSError):
             worker.process.join(5)
             code = worker.process.exitcode
-            return self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")
+            return [self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")]
         worker.heard()
-        if isinstance(answer, Converted):
-            if not answer.fault:
-                worker.got.add(answer.product)
-            return answer
-        if isinstance(answer, Again):
-            worker.got -= set(answer.products)
-            return answer
-        if isinstance(answer, Remark):
-            return answer
         chunk = worker.chunk
         assert chunk is not None
-        worker.chunk = None
-        return Ended(chunk, _missing(chunk, worker.got))
+        if answers is None:
+            worker.chunk = None
+            return [Ended(chunk, missing_of(chunk, worker.got))]
+        note_answers(answers, worker.got)
+        return [*answers]
 
     def _hung(self, worker: _Worker) -> Ended:
         ended = self._lost(worker, f"no answer for {self._silent_s:g} s")
@@ -162,13 +141,13 @@ class Workers:
         # goes on as a whole, and says nothing of the kernels that come after.
         if ended.chunk.kernel != CUT:
             self._silent_s = max(min(self._silent_s, MIN_SILENT_S), self._silent_s / 2)
-        return replace(ended, hung=True)
+        return ended._replace(hung=True)
 
     def _lost(self, worker: _Worker, fault: str) -> Ended:
         chunk = worker.chunk
         assert chunk is not None
         self._forget(worker)
-        return Ended(chunk, _missing(chunk, worker.got), fault)
+        return Ended(chunk, missing_of(chunk, worker.got), fault)
 
     def _forget(self, worker: _Worker) -> None:
         _end(worker)
@@ -186,36 +165,22 @@ def _cpu_seconds(process: int | None) -> float:
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def _missing(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
-    return tuple(number for number in chunk.products if number not in got)
-
-
 def _end(worker: _Worker) -> None:
     worker.process.kill()
     worker.process.join()
     worker.connection.close()
 
 
-def _bound_memory() -> None:
-    """Lets a worker have half of the machine's memory at most: a few lines of a file may ask for any amount."""
-    most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
-
-
 def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
     end_with_parent(parent)
-    _bound_memory()
     for other in others:
         other.close()
-    while True:
-        try:
-            chunk = connection.recv()
-        except EOFError:
-            return
-        try:
-            for answer in convert(model, chunk):
-                connection.send(answer)
-        except Exception as fault:  # whatever the library raises is a fault of this chunk
-            connection.send(Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}"))
-        connection.send(None)
+    with bounded_memory():
+        while True:
+            try:
+                chunk = connection.recv()
+            except EOFError:
+                return
+            for answers in answers_of(convert, model, chunk):
+                connection.send(answers)
+            connection.send(None)

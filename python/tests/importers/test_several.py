@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several files of one importer: each is as if it were alone."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork")
+
+# What becomes of a file is what is written in it.
+PROGRAM = """
+import os, pathlib, signal, subprocess, sys, time
+from strake.importers import Job, run_several
+
+def convert(job):
+    text = job.input.read_text()
+    if text == "crash":
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if text == "hang":
+        subprocess.Popen(["sleep", "600"])
+        pathlib.Path("pid").write_text(str(os.getpid()))
+        time.sleep(600)
+    if text == "starve":
+        raise MemoryError
+    print("printed for", text, "in", os.getcwd(), sorted(os.listdir()), flush=True)
+    print(sys.stdin.read(), end="", flush=True)
+    job.output.write_text("scene of " + text)
+    job.made_by = f"toy with {loaded}"
+
+def load():
+    global loaded
+    loaded = "libraries"
+    with open(sys.argv[1], "a") as file:
+        file.write("x")
+
+sys.exit(run_several(convert, load))
+"""
+
+
+class Host:
+    """A program that reads several files."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.loads = folder / "loads"
+        self.process = subprocess.Popen([sys.executable, "-c", PROGRAM, str(self.loads)], stdin=subprocess.PIPE)
+
+    def begin(self, name: str, text: str) -> Path:
+        """Begins a file; returns its folder."""
+        folder = self.folder / name
+        folder.mkdir()
+        model = self.folder / f"{name}.toy"
+        model.write_text(text)
+        arguments = ["--input", str(model), "--output", str(folder / "s.glb"), "--report", str(folder / "r"), "--threads", "1"]
+        (folder / "job.json").write_text(json.dumps({"arguments": arguments, "log": str(folder / "log")}))
+        self.order("run", folder)
+        return folder
+
+    def order(self, word: str, folder: Path) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.write(f"{word} {folder}\n".encode())
+        self.process.stdin.flush()
+
+    def leave(self) -> int:
+        """Says nothing more."""
+        assert self.process.stdin is not None
+        self.process.stdin.close()
+        return self.process.wait(30)
+
+
+def appeared(path: Path) -> Path:
+    """Waits for a file."""
+    until = time.monotonic() + 60
+    while not path.exists() and time.monotonic() < until:
+        time.sleep(0.01)
+    assert path.exists(), path
+    return path
+
+
+def ended(folder: Path) -> dict[str, Any]:
+    """Waits for the end of a file; returns how it ended."""
+    result: dict[str, Any] = json.loads(appeared(folder / "ended").read_text())
+    return result
+
+
+def last_line(folder: Path) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads((folder / "r").read_text().splitlines()[-1])
+    return result
+
+
+def lives(process: int) -> bool:
+    """Whether a process runs; one that only waits for its parent does not."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_libraries_are_loaded_once_and_each_file_has_its_folder_and_log(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    folders = [host.begin(name, name) for name in ("a", "b", "c")]
+    for folder in folders:
+        assert ended(folder) == {"status": 0}
+        assert (folder / "s.glb").read_text() == f"scene of {folder.name}"
+        assert last_line(folder)["made_by"] == "toy with libraries"
+        assert (folder / "log").read_text() == f"printed for {folder.name} in {folder} ['log', 'r']\n", "nothing of the order is left"
+    assert host.loads.read_text() == "x"
+    assert host.leave() == 0
+
+
+def test_what_goes_wrong_with_one_file_is_nothing_to_the_others(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    bad = {text: host.begin(text, text) for text in ("crash", "starve", "hang")}
+    good = host.begin("good", "good")
+    assert ended(bad["crash"]) == {"status": 1} and "SIGSEGV" in last_line(bad["crash"])["error"]
+    assert ended(bad["starve"]) == {"status": 1} and "memory" in last_line(bad["starve"])["error"]
+    assert ended(good) == {"status": 0}
+    process = int(appeared(bad["hang"] / "pid").read_text())
+    host.order("end", bad["hang"])
+    assert ended(bad["hang"]) == {"signal": 9}
+    until = time.monotonic() + 30
+    while lives(process) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not lives(process)
+    assert ended(host.begin("later", "later")) == {"status": 0}
+    assert host.leave() == 0
+
+
+def test_all_files_end_with_who_ordered_them(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    process = int(appeared(host.begin("h", "hang") / "pid").read_text())
+    assert host.leave() == 0
+    until = time.monotonic() + 30
+    while lives(process) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not lives(process)
+
+
+def test_orders_that_are_none_are_answered_or_passed_over(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    for name, text in (("none", None), ("empty", "{}"), ("torn", '{"arguments": [')):
+        folder = tmp_path / name
+        folder.mkdir()
+        if text is not None:
+            (folder / "job.json").write_text(text)
+        host.order("run", folder)
+        assert ended(folder) == {"status": 2}
+    host.order("dance", tmp_path)
+    host.order("run", tmp_path / "nowhere")
+    host.order("end", tmp_path / "nowhere")
+    wrong = tmp_path / "wrong"
+    wrong.mkdir()
+    (wrong / "job.json").write_text(json.dumps({"arguments": ["--dance"], "log": str(wrong / "log")}))
+    host.order("run", wrong)
+    assert ended(wrong) == {"status": 2} and "--input" in (wrong / "log").read_text()
+    assert ended(host.begin("good", "good")) == {"status": 0}
+    assert host.leave() == 0
