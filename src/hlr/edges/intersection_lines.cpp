@@ -52,9 +52,15 @@ struct SurfaceList {
   std::vector<PlacedSurface> placed;          ///< by body
 };
 
+geometry::Box3l box_of(const geometry::Part& part, const model::GridBody& body) {
+  return part.box.as<std::int64_t>().moved(body.origin);
+}
+
 Result<SurfaceList> list_surfaces(const model::Scene& scene, const std::vector<bool>& drawn,
                                   const std::vector<std::int64_t>& contact,
-                                  const parallel::Context& context) {
+                                  const IntersectionRule& rule, const parallel::Context& context) {
+  // A line lies in the boxes of both of its parts, rounded as it is.
+  const auto shows = [&](const geometry::Box3l& box) { return !rule.shows || rule.shows(box); };
   SurfaceList surfaces;
   std::vector<std::uint32_t> first;
   for (const model::GridShape& shape : scene.shapes) {
@@ -66,9 +72,11 @@ Result<SurfaceList> list_surfaces(const model::Scene& scene, const std::vector<b
       [&](std::size_t b, std::vector<PlacedSurface>& out) {
         const model::GridBody& body = scene.bodies[b];
         if (!drawn[model::index(body.object)]) return;
+        const model::GridShape& shape = scene.shapes[body.grid_shape];
+        if (shape.box.empty() || !shows(body.box(shape))) return;
         std::uint32_t number = first[body.grid_shape];
-        for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
-          if (!part.triangles.empty())
+        for (const geometry::Part& part : shape.parts) {
+          if (!part.triangles.empty() && shows(box_of(part, body)))
             out.push_back(
                 {{&part, body.origin}, number, static_cast<std::uint32_t>(b), contact[b]});
           ++number;
@@ -423,7 +431,7 @@ Result<IntersectionLines> find_intersection_lines(const model::Scene& scene,
                                                   const IntersectionRule& rule,
                                                   const parallel::Context& context) {
   if (rule.which == Intersections::off) return IntersectionLines{};
-  const Result<SurfaceList> surfaces = list_surfaces(scene, drawn, contact, context);
+  const Result<SurfaceList> surfaces = list_surfaces(scene, drawn, contact, rule, context);
   if (!surfaces) return surfaces.error();
   return IntersectionSearch(scene, *surfaces, rule, context).run();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "strake/core/result.hpp"
@@ -30,6 +31,9 @@ struct IntersectionRule {
   double cos_sharp = 1;  ///< primitives of one object intersect where their skins turn by more
   /// By object: the lines that are drawn with it are wanted. Empty: those of all objects.
   std::vector<bool> to_solve = {};
+  /// Returns whether lines in a box, grid units, are wanted; none are looked for of parts in other
+  /// ones. Empty: all lines are wanted.
+  std::function<bool(const geometry::Box3l& box)> shows = {};
 };
 
 /// Finds the intersection lines among the drawn objects. `contact`: by body, the distance within

@@ -108,7 +108,7 @@ Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
 // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
 constexpr std::size_t kObjectsPerBlock = 1024;
 /// To be raised when the same scene and view give another drawing than before.
-constexpr std::uint32_t kRulesOfDrawing = 5;
+constexpr std::uint32_t kRulesOfDrawing = 6;
 
 void add(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
 

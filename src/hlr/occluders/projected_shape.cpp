@@ -69,6 +69,7 @@ Result<ProjectedShape> project_shape(const SectionedShape& sectioned,
         e.b = settings.projection(e.edge.b.as<std::int64_t>());
       });
   if (!placed) return placed.error();
+  if (!settings.hides) return shape;
 
   std::size_t begin = 0;
   for (std::uint32_t p = 0; p < grid_shape.parts.size(); ++p) {

@@ -56,6 +56,7 @@ struct ProjectionSettings {
   const PerspectiveMap* perspective_map = nullptr;  ///< null: orthographic
   std::int32_t bucketing = Options::kBucketsByData;
   bool find_edge_on = false;       ///< find polygons that may be edge-on but for rounding
+  bool hides = true;               ///< make the polygons that hide; the edges alone do without
   parallel::Context context = {};  ///< the team for big shapes
 };
 
@@ -71,7 +72,7 @@ struct ProjectedShape : OccluderPolygons {
   std::vector<ProjectedEdge> edges;
 };
 
-/// Projects a shape and makes its occluders and edges. Errors: cancelled.
+/// Projects a shape and makes its edges and, where it hides, its occluders. Errors: cancelled.
 [[nodiscard]] Result<ProjectedShape> project_shape(const SectionedShape& sectioned,
                                                    const ProjectionSettings& settings);
 
@@ -90,9 +91,9 @@ struct BodyInstance {
   std::uint32_t object = 0;
   std::int64_t contact = 0;
   std::int64_t within = 0;             ///< contact distance within a part
-  bool opaque = false;                 ///< hides; where there are limits, not wholly outside them
+  bool opaque = false;                 ///< may hide something of what is shown
   bool cut = false;                    ///< the limits cut it
-  bool outside = false;                ///< wholly outside the limits
+  bool outside = false;                ///< outside of limits or frustum, or cut away: all clipped
   bool forgives_rounding = false;      ///< see ViewJob::forgives_rounding()
   bool shares_self_occlusion = false;  ///< shares it with the other bodies of its shape
   bool repeated = false;               ///< equal bodies at its place hide what it hides

@@ -306,6 +306,13 @@ Status place(ViewJob& job, const WholeView* whole, const parallel::Context& cont
   return placed;
 }
 
+/// Returns the space that a view may show.
+ViewVolume shown_volume(const View& view, const Options& options,
+                        std::span<const SectionPlane> planes) {
+  // What is left whole may reach beyond the planes.
+  return {view, options.uncut.empty() ? planes : std::span<const SectionPlane>()};
+}
+
 }  // namespace
 
 std::int64_t contact_of(const model::Body& body, const Options& options) {
@@ -325,9 +332,7 @@ Result<model::ViewTessellationOptions> tessellation_of(const View& view, const O
     tessellation_options.towards = in_lowest_terms(view.direction);
   // A margin for tessellation and the grid.
   constexpr std::int64_t kRoom = 2000;
-  // What is left whole may reach beyond the planes.
-  const ViewVolume shown(
-      view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
+  const ViewVolume shown = shown_volume(view, options, *planes);
   tessellation_options.shows = [shown](const Box3l& box) {
     return shown.meets(box.inflated(kRoom));
   };
@@ -385,6 +390,16 @@ Status cut_bodies(ViewJob& job, std::span<const SectionPlane> planes, const Whol
   return {};
 }
 
+/// Returns which lines of intersection a view wants: clipped ones only where they are kept.
+IntersectionRule intersection_rule(const ViewJob& job, std::span<const SectionPlane> planes) {
+  IntersectionRule rule{job.options.intersections, job.cos_sharp, job.to_solve};
+  const ViewVolume shown = shown_volume(job.view, job.options, planes);
+  // A line along the border of what is shown is kept, too.
+  if (!job.options.clipped && shown.is_bounded())
+    rule.shows = [shown](const Box3l& box) { return shown.meets(box.inflated(1)); };
+  return rule;
+}
+
 }  // namespace
 
 Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& context) {
@@ -393,9 +408,8 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   auto begun = begin_job(input, context);
   if (!begun) return begun.error();
   ViewJob job = std::move(*begun);
-  const auto crossings =
-      find_intersection_lines(*job.scene, job.drawn, job.contact,
-                              {job.options.intersections, job.cos_sharp, job.to_solve}, context);
+  const auto crossings = find_intersection_lines(*job.scene, job.drawn, job.contact,
+                                                 intersection_rule(job, *planes), context);
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;

@@ -46,6 +46,8 @@ class ViewVolume {
   /// Returns whether a box that is not empty, in grid units, meets the space. A box that only comes
   /// near to a corner of the space may count as well.
   [[nodiscard]] bool meets(const geometry::Box3l& box) const;
+  /// Returns whether there is anything that it does not meet.
+  [[nodiscard]] bool is_bounded() const { return limits_ || !planes_.empty(); }
 
  private:
   std::optional<geometry::Box3l> limits_;

@@ -433,10 +433,6 @@ class Drawer {
       : visibility_(visibility), gatherer_(visibility), piece_builder_(visibility, rule) {}
 
   SolverWork run(const EdgeRange& item, bool timed, std::vector<EdgePiece>& out) {
-    // No edge is looked at where the limits leave nothing of the body.
-    const std::uint64_t edges = item.last - item.first;
-    if (!visibility_.job.options.clipped && !item.lines && visibility_.placed[item.body].outside)
-      return {.edges = edges, .clipped = edges};
     const Stopwatch watch;
     gatherer_.start(item, timed);
     if (item.lines)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "strake/hlr/steps.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
 
 namespace strake::hlr {
@@ -26,6 +27,14 @@ Result<SolverWork> sum_up_work(const VisibilityScene& visibility, std::span<cons
                                const parallel::Context& context, Drawing& drawing,
                                SpeckedObjects& specked) {
   constexpr std::size_t kGrain = 4096;
+  const Status counted = parallel::for_each(
+      context,
+      {.name = "hidden lines: edges outside", .n = visibility.outside.size(), .grain = kGrain},
+      [&](std::size_t object) {
+        drawing.counted[object].edges += visibility.outside[object];
+        drawing.clipped_left_out[object] += visibility.outside[object];
+      });
+  if (!counted) return counted.error();
   const auto object_of = [&](std::size_t i) {
     return visibility.placed[visibility.items[i].body].object;
   };

@@ -66,24 +66,94 @@ Result<double> nearest_depth(const ViewJob& job, const parallel::Context& contex
   return std::isfinite(*nearest) ? std::max(*nearest, near_plane) : near_plane;
 }
 
-/// Projects each shape for all bodies that share it; in perspective, for each body.
-Status project_shapes(VisibilityScene& visibility, const parallel::Context& context) {
-  const parallel::StageTimer timer(context.report, kLocalStep);
+/// Returns whether all of a box lies beyond one of some half-spaces.
+bool is_beyond(std::span<const HalfSpace> sides, const Box3l& box) {
+  return std::ranges::any_of(sides, [&](const HalfSpace& side) {
+    geometry::Vec3l deepest;
+    for (int k = 0; k < 3; ++k) deepest[k] = side.normal[k] > 0 ? box.hi[k] : box.lo[k];
+    return along({side.normal.x, side.normal.y, side.normal.z}, deepest) < side.least;
+  });
+}
+
+/// Finds what limits, frustum and sections leave of a body; decision 0127 says what for.
+void limit(const ViewJob& job, std::uint32_t b, BodyInstance& placed) {
+  const SectionedShape& sectioned = job.sectioned_shape_of(b);
+  placed.outside = sectioned.away;
+  placed.opaque = placed.opaque && !sectioned.away;
+  if ((!job.limits && job.window.empty()) || sectioned.shape().box.empty()) return;
+  Box3l box = job.scene->bodies[b].box(sectioned.shape());
+  // Hatch lines lie on the plane itself, and rounded rims up to 1.5 units off it.
+  const std::int64_t beyond = sectioned.cut != nullptr ? 2 : 0;
+  const geometry::Vec3l more{beyond, beyond, beyond};
+  box = {box.lo - job.origin - more, box.hi - job.origin + more};
+  if (job.limits) {
+    placed.cut = !within(box, *job.limits);
+    const bool beside = !box.meets(*job.limits);
+    placed.outside = placed.outside || beside;
+    placed.opaque = placed.opaque && !beside;
+  }
+  if (job.window.empty()) return;
+  // Beside the frustum, whose sides pass through the eye, nothing hides what is in it. What the
+  // near plane leaves out hides.
+  const std::span<const HalfSpace> window(job.window);
+  const bool beside = is_beyond(window.subspan(1), box);
+  placed.outside = placed.outside || beside || is_beyond(window.first(1), box);
+  placed.opaque = placed.opaque && !beside;
+}
+
+/// Returns a body as it is placed, without its shape.
+BodyInstance placed_body(const VisibilityScene& visibility, std::uint32_t b) {
+  const ViewJob& job = visibility.job;
+  const model::GridBody& body = job.scene->bodies[b];
+  BodyInstance placed;
+  placed.offset = job.offset(body);
+  if (!visibility.perspective_map) placed.at = visibility.projection(placed.offset);
+  placed.object = model::index(body.object);
+  placed.contact = job.contact[b];
+  placed.within = job.sectioned_shape_of(b).within;
+  placed.opaque = job.opaque[b];
+  placed.forgives_rounding = job.forgives_rounding(b);
+  limit(job, b, placed);
+  return placed;
+}
+
+/// Which of the shapes are requested, each by the first body that is drawn with it, and which hide.
+struct RequestedShapes {
+  explicit RequestedShapes(std::size_t shapes) : body_of(shapes), hiding(shapes) {}
+  parallel::Lowest body_of;
+  parallel::Marks hiding;
+};
+
+/// Places the bodies that are drawn; their shapes come later.
+Status place_bodies(VisibilityScene& visibility, RequestedShapes& requested,
+                    const parallel::Context& context) {
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
-  const std::size_t shapes =
-      visibility.perspective_map ? scene.bodies.size() : job.sectioned.all.size();
-  parallel::Lowest body_of(shapes);
-  const Status found = parallel::for_each(
-      context,
-      {.name = "hidden lines: shapes of bodies", .n = scene.bodies.size(), .grain = kBodiesPerItem},
-      [&](std::size_t b) {
-        if (job.drawn[model::index(scene.bodies[b].object)])
-          body_of.offer(visibility.shape_number(static_cast<std::uint32_t>(b)), b);
+  auto placed_bodies = parallel::unset_slots<BodyInstance>(scene.bodies.size(), context);
+  if (!placed_bodies) return placed_bodies.error();
+  visibility.placed = std::move(*placed_bodies);
+  return parallel::for_each(
+      context, {.name = "hidden lines: bodies", .n = scene.bodies.size(), .grain = kBodiesPerItem},
+      [&](std::size_t index) {
+        const auto b = static_cast<std::uint32_t>(index);
+        visibility.placed[b] = {};
+        const std::uint32_t object = model::index(scene.bodies[b].object);
+        if (!job.drawn[object]) return;
+        visibility.placed[b] = placed_body(visibility, b);
+        const std::uint32_t shape = visibility.shape_number(b);
+        requested.body_of.offer(shape, b);
+        if (visibility.placed[b].opaque) requested.hiding.set(shape);
       });
-  if (!found) return found;
+}
+
+/// Projects each shape for all bodies that share it; in perspective, for each body.
+Status project_shapes(VisibilityScene& visibility, const RequestedShapes& requested,
+                      const parallel::Context& context) {
+  const ViewJob& job = visibility.job;
+  const model::Scene& scene = *job.scene;
+  const parallel::Lowest& body_of = requested.body_of;
   std::vector<std::uint32_t> wanted;
-  for (std::uint32_t shape = 0; shape < shapes; ++shape)
+  for (std::uint32_t shape = 0; shape < body_of.size(); ++shape)
     if (body_of[shape] != parallel::Lowest::kNone) wanted.push_back(shape);
   const auto edges = [&](std::size_t shape) {
     std::size_t sum = 0;
@@ -91,17 +161,30 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
       sum += part.edges.size();
     return sum;
   };
-  visibility.shapes = parallel::Precomputed<ProjectedShape>(shapes);
+  visibility.shapes = parallel::Precomputed<ProjectedShape>(body_of.size());
   const PerspectiveMap* const perspective_map =
       visibility.perspective_map ? &*visibility.perspective_map : nullptr;
   return visibility.shapes.fill_by_weight(
       context, {.name = "hidden lines: shapes"}, kBigShape, wanted, edges, [&](std::size_t shape) {
         const std::uint32_t body = body_of[shape];
-        return project_shape(
-            job.sectioned_shape_of(body),
-            {visibility.projection, job.features_of(scene.bodies[body]), perspective_map,
-             job.options.bucketing, job.may_forgive_rounding(), context});
+        return project_shape(job.sectioned_shape_of(body),
+                             {.projection = visibility.projection,
+                              .features = job.features_of(scene.bodies[body]),
+                              .perspective_map = perspective_map,
+                              .bucketing = job.options.bucketing,
+                              .find_edge_on = job.may_forgive_rounding(),
+                              .hides = requested.hiding.is_set(shape),
+                              .context = context});
       });
+}
+
+/// Places the bodies and projects their shapes, once for all bodies that share one.
+Status make_bodies(VisibilityScene& visibility, const parallel::Context& context) {
+  const parallel::StageTimer timer(context.report, kLocalStep);
+  RequestedShapes requested(visibility.perspective_map ? visibility.job.scene->bodies.size()
+                                                       : visibility.job.sectioned.all.size());
+  if (const Status status = place_bodies(visibility, requested, context); !status) return status;
+  return project_shapes(visibility, requested, context);
 }
 
 /// Finds which of some bodies stand in one column.
@@ -193,50 +276,25 @@ Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
   return {};
 }
 
-Status place_bodies(VisibilityScene& visibility, const parallel::Context& context) {
+/// Gives bodies their projected shapes, and puts those that may hide into columns.
+Status shape_bodies(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
-  const model::Scene& scene = *job.scene;
-  auto placed_bodies = parallel::slots<BodyInstance>(scene.bodies.size(), context);
-  if (!placed_bodies) return placed_bodies.error();
-  visibility.placed = std::move(*placed_bodies);
-  auto made = parallel::slots<ViewBox>(scene.bodies.size(), context);
+  auto made = parallel::unset_slots<ViewBox>(visibility.placed.size(), context);
   if (!made) return made.error();
   std::vector<ViewBox>& boxes = *made;
-  const auto place = [&](std::size_t index) {
-    const auto b = static_cast<std::uint32_t>(index);
-    const model::GridBody& body = scene.bodies[b];
-    const std::uint32_t object = model::index(body.object);
-    if (!job.drawn[object]) return;
-    const SectionedShape& sectioned = job.sectioned_shape_of(b);
-    const model::GridShape& shape = sectioned.shape();
-    BodyInstance& placed = visibility.placed[b];
-    placed = {visibility.shapes.find(visibility.shape_number(b)),
-              job.offset(body),
-              visibility.perspective_map ? ViewPoint{} : visibility.projection(job.offset(body)),
-              object,
-              job.contact[b],
-              sectioned.within,
-              job.opaque[b],
-              false,
-              false,
-              job.forgives_rounding(b)};
-    if (job.limits && !shape.box.empty()) {
-      Box3l box = body.box(shape);
-      // Hatch lines lie on the plane itself, and rounded rims up to 1.5 units off it.
-      const std::int64_t beyond = sectioned.cut != nullptr ? 2 : 0;
-      const geometry::Vec3l more{beyond, beyond, beyond};
-      box = {box.lo - job.origin - more, box.hi - job.origin + more};
-      placed.cut = !within(box, *job.limits);
-      placed.outside = !box.meets(*job.limits);
-      placed.opaque = placed.opaque && !placed.outside;
-    }
-    if (placed.opaque && !placed.shape->box.empty()) boxes[b] = placed.shape->box.moved(placed.at);
-  };
-  if (Status status = parallel::for_each(
-          context, {.name = "hidden lines: bodies", .n = scene.bodies.size(), .grain = 1024},
-          place);
-      !status)
-    return status;
+  Status status = parallel::for_each(
+      context,
+      {.name = "hidden lines: shapes of bodies", .n = boxes.size(), .grain = kBodiesPerItem},
+      [&](std::size_t b) {
+        boxes[b] = {};
+        BodyInstance& placed = visibility.placed[b];
+        if (!job.drawn[model::index(job.scene->bodies[b].object)]) return;
+        placed.shape =
+            visibility.shapes.find(visibility.shape_number(static_cast<std::uint32_t>(b)));
+        if (placed.opaque && !placed.shape->box.empty())
+          boxes[b] = placed.shape->box.moved(placed.at);
+      });
+  if (!status) return status;
   return make_columns(visibility, boxes, context);
 }
 
@@ -292,7 +350,8 @@ Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Contex
       std::size_t{0},
       [&](std::size_t& sum, std::size_t b) {
         const BodyInstance& placed = visibility.placed[b];
-        if (placed.shape != nullptr) sum += placed.shape->edges.size();
+        if (placed.shape != nullptr && !visibility.leaves_out(placed))
+          sum += placed.shape->edges.size();
       },
       [](std::size_t& into, std::size_t sum) { into += sum; });
   if (!edges) return edges.error();
@@ -305,13 +364,14 @@ Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Contex
   return {};
 }
 
-/// Appends the work items of an object.
-void append_items(const VisibilityScene& visibility, std::uint32_t object,
-                  std::vector<EdgeRange>& items) {
+/// Appends the work items of an object. Returns how many of its edges are in none: see
+/// VisibilityScene::outside.
+std::uint32_t append_items(const VisibilityScene& visibility, std::uint32_t object,
+                           std::vector<EdgeRange>& items) {
   const std::vector<std::uint32_t>& first_body = visibility.job.scene->first_body;
-  if (!visibility.job.solves(object)) return;
+  if (!visibility.job.solves(object)) return 0;
   const std::size_t first_item = items.size();
-  std::uint32_t number = 0;
+  std::uint32_t number = 0, outside = 0;
   const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
     const auto edges = static_cast<std::uint32_t>(size);
     parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
@@ -320,23 +380,32 @@ void append_items(const VisibilityScene& visibility, std::uint32_t object,
     number += edges;
   };
   for (std::uint32_t b = first_body[object]; b < first_body[object + 1]; ++b) {
-    if (visibility.placed[b].shape == nullptr) continue;
-    add(b, visibility.placed[b].shape->edges.size(), false);
+    const BodyInstance& placed = visibility.placed[b];
+    if (placed.shape == nullptr) continue;
+    const auto edges = static_cast<std::uint32_t>(placed.shape->edges.size());
+    if (visibility.leaves_out(placed)) {
+      outside += edges;
+      number += edges;
+    } else {
+      add(b, edges, false);
+    }
     if (b + 1 != first_body[object + 1]) continue;
     add(b, visibility.job.lines.of(object).size(), true);
-    if (items.size() == first_item + 1) items.back().whole = !items.back().lines;
+    if (items.size() == first_item + 1) items.back().whole = !items.back().lines && outside == 0;
   }
+  return outside;
 }
 
 Status make_items(VisibilityScene& visibility, const parallel::Context& context) {
-  auto items = parallel::collect<EdgeRange>(context,
-                                            {.name = "hidden lines: work items",
-                                             .n = visibility.job.drawn.size(),
-                                             .grain = kBodiesPerItem},
-                                            [&](std::size_t object, std::vector<EdgeRange>& out) {
-                                              append_items(visibility,
-                                                           static_cast<std::uint32_t>(object), out);
-                                            });
+  const ViewJob& job = visibility.job;
+  if (!job.options.clipped) visibility.outside.resize(job.drawn.size());
+  auto items = parallel::collect<EdgeRange>(
+      context, {.name = "hidden lines: work items", .n = job.drawn.size(), .grain = kBodiesPerItem},
+      [&](std::size_t object, std::vector<EdgeRange>& out) {
+        const std::uint32_t outside =
+            append_items(visibility, static_cast<std::uint32_t>(object), out);
+        if (outside > 0) visibility.outside[object] = outside;
+      });
   if (!items) return items.error();
   visibility.items = std::move(*items);
   return {};
@@ -363,10 +432,10 @@ Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
     if (!nearest) return nearest.error();
     visibility.perspective_map.emplace(job.view, *nearest);
   }
-  if (const Status status = project_shapes(visibility, context); !status) return status.error();
+  if (const Status status = make_bodies(visibility, context); !status) return status.error();
   const parallel::StageTimer timer(context.report,
                                    job.options.stage == Stage::global ? kGlobalStep : kLocalStep);
-  if (const Status status = place_bodies(visibility, context); !status) return status.error();
+  if (const Status status = shape_bodies(visibility, context); !status) return status.error();
   if (job.options.culling && job.options.stage != Stage::none && !visibility.perspective_map)
     if (const Status status = mark_shared_self_occlusion(visibility, context); !status)
       return status.error();

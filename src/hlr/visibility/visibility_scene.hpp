@@ -83,7 +83,14 @@ struct VisibilityScene {
   ViewBvh tree;                      ///< over the columns
   OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
+  /// By object: edges that are in no item, as all of their bodies is clipped and nobody requests
+  /// clipped edges. Empty where somebody does.
+  std::vector<std::uint32_t> outside;
 
+  /// Returns whether the edges of a body are in no item.
+  [[nodiscard]] bool leaves_out(const BodyInstance& body) const {
+    return body.outside && !job.options.clipped;
+  }
   /// Returns the number of a body's projected shape.
   [[nodiscard]] std::uint32_t shape_number(std::uint32_t body) const {
     return perspective_map ? body : job.sectioned.of[body];
