@@ -98,6 +98,7 @@ class Usage(Scenario):
                 self.assertIn(stated, done.stderr)
                 self.assertIn('strake: error: ', done.stderr)
                 self.assertEqual(done.stdout, '')
+        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
 
     def test_former_names_of_options_work_and_are_not_shown(self):
         self.two_files()
@@ -108,8 +109,6 @@ class Usage(Scenario):
                 self.assertIn(name, self.run_strake('clash', 'a.obj', '-o', 'x.bcf', former, 'all').stderr)
                 self.assertIn(name, shown)
                 self.assertNotIn(former, shown)
-        self.assertEqual(self.files(), ['a.obj', 'b.obj'])
-
 
     def test_what_makes_no_sense_is_stated_before_a_model_is_read(self):
         for arguments, stated in (
