@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
-_MIN_IN_CHUNK = 16
+_MIN_IN_CHUNK = 64
 _MAX_CHUNKS = 256
 # So many tasks at most are done by this process itself: alone, or where there are others.
 _MAX_HERE, _MAX_BESIDE_OTHERS = 2000, 32
@@ -57,7 +57,8 @@ class ShapeStore:
     """Shapes until the scene is written in its order: small ones as they are, so far as there are few, the others on disk."""
 
     def __init__(self, folder: Path) -> None:
-        self._file = tempfile.TemporaryFile(dir=folder)
+        self._folder = folder
+        self._file: IO[bytes] | None = None
         self._places: dict[bytes, tuple[int, int]] = {}
         self._held: dict[bytes, PreparedShape] = {}
         self._held_bytes = 0
@@ -71,6 +72,8 @@ class ShapeStore:
             self._held[shape.key] = shape
             self._held_bytes += size
             return
+        if self._file is None:
+            self._file = tempfile.TemporaryFile(dir=self._folder)
         data = pickle.dumps(shape, pickle.HIGHEST_PROTOCOL)
         self._file.seek(0, 2)
         self._places[shape.key] = (self._file.tell(), len(data))
@@ -80,6 +83,7 @@ class ShapeStore:
         """Returns a shape that was added."""
         if key in self._held:
             return self._held[key]
+        assert self._file is not None
         offset, size = self._places[key]
         self._file.seek(offset)
         shape = pickle.loads(self._file.read(size))
@@ -98,6 +102,7 @@ class Conversion:
     remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     bodyless: list[int] = field(default_factory=list)
     slow_cuts: int = 0  # products that manifold3d would cut, if it were installed
+    made_by: object = None  # it may hold what need not be taken apart
 
     def remarks_of(self, number: int) -> list[str]:
         """Returns the faults that the kernel found which made the shape; where none did, those of all."""
@@ -159,6 +164,7 @@ def convert_products(
     few = len(tasks) <= (_MAX_HERE if threads == 1 else _MAX_BESIDE_OTHERS)
     here = attempt if few and attempt is not None and not attempt.is_careful else None
     with _workers(model, threads, convert) if here is None else Here(model, here, convert) as workers:
+        result.made_by = workers
         for chunk in chunks_of(tasks, kernels_of):
             workers.add(chunk)
         for event in workers.answers():

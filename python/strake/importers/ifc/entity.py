@@ -123,6 +123,8 @@ class Model:
         self._tables = Tables()
         self.schema = str(file.schema)
         self.schema_identifier = str(file.schema_identifier)
+        # Faces that are split before kernels see them, by product (importers/ifc/pinched.py).
+        self.pinched: dict[int, list[int]] = {}
 
     def by_type(self, kind: str) -> list[Entity]:
         """Returns the entities of a class and of those made from it."""
