@@ -90,7 +90,7 @@ def test_what_crashes_where_that_was_expected_begins_anew_with_care(tmp_path: Pa
         job.report.warning("xyz-odd", "said twice")
         job.attempt.may_be_repeated(True)
         if not job.attempt.is_careful:
-            os.kill(os.getpid(), signal.SIGSEGV)
+            os.kill(os.getpid(), signal.SIGKILL)
         job.attempt.may_be_repeated(False)
         with job.scene() as scene:
             scene.object("7", "t", scene.shape([TRIANGLE]))

@@ -16,7 +16,7 @@ from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Again, Chunk, Converted, Remark, convert_chunk
-from strake.importers.ifc.ends import Convert, Ended
+from strake.importers.ifc.ends import Convert, Ended, is_tried_again
 from strake.importers.ifc.entity import Entity, Model, number_of
 from strake.importers.ifc.here import Here
 from strake.importers.ifc.kernels import CUT, EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
-_MIN_IN_CHUNK = 64
+_MIN_IN_CHUNK = 16
 _MAX_CHUNKS = 256
 # So many tasks at most are done by this process itself: alone, or where there are others.
 _MAX_HERE, _MAX_BESIDE_OTHERS = 2000, 32
@@ -207,8 +207,7 @@ def _keep(event: Converted, result: Conversion) -> None:
 def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers | Here, result: Conversion) -> None:
     """Sends what a chunk left behind on: to the next kernel, or after a crash apart from the product that it was at."""
     chunk, missing = ended.chunk, ended.missing
-    if ended.fault and missing and not chunk.watched and len(chunk.products) > 1 and not (ended.hung and chunk.kernel == CUT):
-        # Answers that were to come together are lost: it is not known at which product it was.
+    if ended.fault and missing and is_tried_again(chunk) and not (ended.hung and chunk.kernel == CUT):
         workers.add(Chunk(missing, chunk.kernel, chunk.attempt, watched=True))
         return
     if ended.fault and len(chunk.products) > 1 and missing:
