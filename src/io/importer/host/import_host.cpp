@@ -116,9 +116,8 @@ std::unique_ptr<ImportHost> ImportHost::start(const fs::path& program) {
 }
 
 ImportHost::~ImportHost() {
-  // It ends when nobody can tell it anything any more.
+  // All files have ended: it holds nothing that is worth to wait for, and is killed.
   ::close(orders_);
-  static_cast<void>(wait_for_end(*process_, kPatienceS));
 }
 
 bool ImportHost::order(std::string_view word, const fs::path& folder) const {
