@@ -111,6 +111,10 @@ def _converted(convert: Convert, job: Job) -> int:
         traceback.print_exc(file=sys.stderr)
         job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
         return 1
-    here = sorted(str(path) for path in Path(__file__).resolve().parent.rglob("*.py"))
-    job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *here}, job.map_place)
+    job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *_own_files()}, job.map_place)
     return 0
+
+
+def _own_files() -> list[str]:
+    folders = os.walk(Path(__file__).resolve().parent)
+    return [os.path.join(folder, name) for folder, _, names in folders for name in names if name.endswith(".py")]

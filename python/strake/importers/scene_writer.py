@@ -13,7 +13,7 @@ from array import array
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, NamedTuple
+from typing import IO, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,8 @@ Attributes = Mapping[str, Any]
 _MAX_BYTES = 2**32 - 1
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125
+# Files are made when there is more to write.
+_MAX_IN_MEMORY = 4 << 20
 _encode_any = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode
 _encode_text = json.encoder.encode_basestring
 
@@ -50,7 +52,7 @@ def encoded(attributes: Attributes) -> Any:
 
 
 class SceneWriter:
-    """Writes one scene. What is added goes to temporary files at once, so that memory holds a few bytes of each object.
+    """Writes one scene. What is added goes to temporary files, so that memory holds a few bytes of each object of a large one.
 
     Coordinates are in `unit_mm` millimetres, `up` is the axis that points up, `sag_mm` is how far at most triangles lie
     from the surfaces that they stand for, of shapes that do not say so themselves; None where that is not known. Bytes depend
@@ -69,7 +71,7 @@ class SceneWriter:
         self._folder = tempfile.TemporaryDirectory(prefix=".strake-scene-", dir=path.parent)
         self._spools: dict[str, IO[bytes]] = {}
         for name in ("nodes", "meshes", "accessors", "positions", "wide", "narrow"):
-            self._spools[name] = (Path(self._folder.name) / name).open("w+b")
+            self._spools[name] = self._spool()
         self._counts = dict.fromkeys(self._spools, 0)
         self._pieces: dict[bytes, tuple[int, int]] = {}
         self._meshes: dict[bytes, int] = {}
@@ -236,10 +238,14 @@ class SceneWriter:
             views.append(view)
             offset += size
         padding = -offset % 4
-        with (Path(self._folder.name) / "json").open("w+b") as text:
+        with self._spool() as text:
             self._write_json(text, roots, views, offset + padding)
             text.write(b" " * (-text.tell() % 4))
             self._assemble(text, offset, padding)
+
+    def _spool(self) -> IO[bytes]:
+        """Returns a file that is in memory until it is large."""
+        return cast(IO[bytes], tempfile.SpooledTemporaryFile(_MAX_IN_MEMORY, dir=self._folder.name))
 
     def _number_view(self, name: str, number: int) -> None:
         """Remembers which number the view of that name has."""

@@ -77,6 +77,47 @@ def test_whatever_goes_wrong_is_the_last_line(tmp_path: Path, convert: Callable[
     assert not (tmp_path / "s.glb").exists()
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork")
+def test_what_crashes_where_that_was_expected_begins_anew_with_care(tmp_path: Path) -> None:
+    calls = tmp_path / "calls"
+
+    def convert(job: Job) -> None:
+        with calls.open("a") as file:
+            file.write("careful\n" if job.attempt.is_careful else "quick\n")
+        for number in range(2):
+            job.report.warning("xyz-odd", "said once", str(number))
+        job.report.warning("xyz-odd", "said twice")
+        job.report.warning("xyz-odd", "said twice")
+        job.attempt.may_be_repeated(True)
+        if not job.attempt.is_careful:
+            os.kill(os.getpid(), signal.SIGKILL)
+        job.attempt.may_be_repeated(False)
+        with job.scene() as scene:
+            scene.object("7", "t", scene.shape([TRIANGLE]))
+
+    status, lines = called(convert, tmp_path)
+    assert status == 0 and calls.read_text() == "quick\ncareful\n"
+    assert [line["message"] for line in lines[:-1]] == ["said once", "said once", "said twice", "said twice"]
+    assert Glb(tmp_path / "s.glb").ids == ["7"]
+
+
+def expect_a_crash(job: Job) -> None:
+    job.attempt.may_be_repeated(True)
+    crash(job)
+
+
+def crash_later(job: Job) -> None:
+    job.attempt.may_be_repeated(True)
+    job.attempt.may_be_repeated(False)
+    crash(job)
+
+
+@pytest.mark.parametrize("convert", [expect_a_crash, crash_later])
+def test_a_second_crash_or_one_that_was_not_expected_ends_it(tmp_path: Path, convert: Callable[[Job], None]) -> None:
+    status, lines = called(convert, tmp_path)
+    assert status == 1 and [list(line) for line in lines] == [["error", "mend"]]
+
+
 def test_progress_never_goes_back_and_is_no_flood(tmp_path: Path) -> None:
     with Report(tmp_path / "r") as report:
         for i in range(100_000):

@@ -27,10 +27,13 @@ def test_properties_have_their_values_where_they_are_looked_for(schema: str) -> 
     for kind in PROPERTIES:
         declared = known.declaration_by_name(kind).as_entity()
         names = [attribute.name() for attribute in declared.all_attributes()]
-        assert names[attributes._PROPERTY_NAME] == "Name"
+        assert names[attributes.PROPERTY_NAME] == "Name"
         assert list(declared.subtypes()) == []  # so that the name of the class says it all
         if kind == "IfcPropertySingleValue":
             assert names[units.NOMINAL_VALUE] == "NominalValue" and names[units.UNIT] == "Unit"
+    for kind, place in (("IfcPropertySet", attributes.OF_SET), ("IfcComplexProperty", attributes.OF_COMPLEX)):
+        declared = known.declaration_by_name(kind).as_entity()
+        assert [attribute.name() for attribute in declared.all_attributes()][place] == "HasProperties"
 
 
 @pytest.mark.parametrize("schema", ["IFC2X3", "IFC4"])

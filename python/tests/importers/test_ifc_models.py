@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +16,13 @@ pytest.importorskip("ifcopenshell")
 
 from conversions import convert
 from ifc_model import IfcModel
+from strake.importers.ifc import chunks, conversion
+from strake.importers.ifc.entity import Model
+from strake.importers.ifc.kernels import shapes_of
 from strake.importers.ifc.pinched import split_outline
+from strake.importers.ifc.source import open_model
+from strake.importers.report import Report
+from strake.importers.supervision import Attempt
 
 CUBE = [(x, y, z) for x in (0, 100) for y in (0, 100) for z in (0, 100)]
 CUBE_FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -167,6 +175,58 @@ def test_outlines_that_touch_themselves_lose_nothing_by_any_product_that_has_the
     assert outcome.reported("skipped") == outcome.reported("warning") == []
     assert [outcome.glb.volume(one.GlobalId) for one in wedges] == [pytest.approx(2 * 20 * 10 * 50, rel=1e-6)] * 3
     assert len({outcome.glb.node(one.GlobalId)["mesh"] for one in wedges}) == 1
+
+
+# The same with one point where they meet, which the text of the file shows.
+SEEN_FACES = [(5, 1, 3, 2, 1, 0), (6, 7, 8, 9, 7, 11), *PINCHED_FACES[2:]]
+
+
+def kernels_asked(monkeypatch: pytest.MonkeyPatch, path: Path) -> tuple[list[tuple[int, ...]], conversion.Conversion]:
+    """Converts a file, and returns the products of each call of a kernel."""
+    asked: list[tuple[int, ...]] = []
+
+    def noted(model: Model, products: Iterable[int], *more: Any) -> Any:
+        asked.append(tuple(products))
+        return shapes_of(model, asked[-1], *more)
+
+    monkeypatch.setattr(chunks, "shapes_of", noted)
+    with Report(path.parent / "report") as report:
+        model = open_model(path, report, path.parent)
+        products = [product for product in model.by_type("IfcProduct") if product.get("Representation")]
+        made = conversion.convert_products(model, products, 1, report, path.parent, attempt=Attempt())
+    return asked, made
+
+
+def test_outlines_that_touch_themselves_by_the_text_are_made_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shapes = []
+    for name, faces, calls in (("seen", SEEN_FACES, 1), ("pinched", PINCHED_FACES, 2)):
+        model = IfcModel()
+        wedge = model.mapped(model.body(model.faceted(PINCHED, faces), kind="Brep"))
+        wedges = [
+            model.product("IfcFooting", "w", model.body(model.use(wedge), kind="MappedRepresentation"), (i * 100, 0, 0)) for i in (0, 1)
+        ]
+        model.product("IfcColumn", "c", model.body(model.extrusion((10, 10, 10))))
+        asked, made = kernels_asked(monkeypatch, model.write(tmp_path / f"{name}.ifc"))
+        assert len(asked) == calls and not made.failed and not made.remarks
+        shapes.append({made.placed[wedge.id()].key for wedge in wedges})
+    assert shapes[0] == shapes[1]
+
+
+def test_a_body_of_which_more_is_wrong_is_what_it_is_without_the_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # A hole in the cap touches itself, too, and no such face is split.
+    outcomes = []
+    for name, faces in (("seen", SEEN_FACES), ("pinched", PINCHED_FACES)):
+        model = IfcModel()
+        brep = model.faceted(PINCHED, faces)
+        make = model.file.create_entity
+        points = [make("IfcCartesianPoint", (x, 0.0, z)) for x, z in ((0.0, 60.0), (9.0, 60.0), (0.0, 60.0), (0.0, 70.0))]
+        line = make("IfcFace", [make("IfcFaceOuterBound", make("IfcPolyLoop", [points[i] for i in (0, 1, 2, 1)]), True)])
+        brep.Outer.CfsFaces = [*brep.Outer.CfsFaces, line]
+        model.product("IfcFooting", "w", model.body(brep, kind="Brep"))
+        asked, made = kernels_asked(monkeypatch, model.write(tmp_path / f"{name}.ifc"))
+        outcomes.append((made.failed.keys(), {(one.key, one.kernel) for one in made.placed.values()}, [*made.remarks.values()], asked[-1]))
+    assert outcomes[0] == outcomes[1]
+    assert len(outcomes[0][2]) == 1
 
 
 def test_outlines_fall_apart_where_they_come_to_a_place_again() -> None:

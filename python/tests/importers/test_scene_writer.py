@@ -15,7 +15,7 @@ import pytest
 
 from glb_reader import Glb
 from strake.importers import Part, SceneWriter, prepare_shape
-from strake.importers.shapes import used_corners
+from strake.importers.shapes import PreparedShape, prepare_shapes, used_corners
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 FACES = np.array(
@@ -191,3 +191,55 @@ def test_corners_that_no_triangle_has_are_left_out() -> None:
 
 def test_a_part_without_triangles_is_none() -> None:
     assert prepare_shape([Part(np.zeros((0, 3)), []), box()]) == prepare_shape([box()])
+
+
+def lid(count: int) -> Part:
+    """A flat outline of so many corners, as a fan of triangles."""
+    angles = np.arange(count) * 2 * np.pi / count
+    corners = np.stack([np.cos(angles) * 100, np.sin(angles) * 60, np.full(count, 5.0)], axis=1)
+    return Part(corners, [[0, i, i + 1] for i in range(1, count - 1)], GLASS)
+
+
+def test_shapes_that_are_prepared_together_are_those_of_each_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    given: list[tuple[list[Part], float | None]] = [
+        ([box()], None),
+        ([lid(9), box(3, 1e6)], 0.0),
+        ([Part(np.zeros((0, 3)), [])], None),
+        ([box(at=math.nan)], 0.0),
+        ([lid(40), lid(5)], 0.25),
+        ([box(), Part(CORNERS, [[0, 1, 8]])], None),
+        ([Part(CORNERS * 1e300, FACES)], None),
+        ([box()], -1.0),
+        ([], None),
+        ([lid(200)], 1.0),
+        ([box()], None),
+    ]
+    with np.errstate(all="ignore"):
+        alone = [prepare_shapes([one], 25.4)[0] for one in given]
+        for most in (1, 60, 100_000):
+            monkeypatch.setattr("strake.importers.shapes._MAX_TOGETHER", most)
+            together = prepare_shapes(given, 25.4)
+            assert [str(shape) for shape in together] == [str(shape) for shape in alone]
+    assert [isinstance(shape, PreparedShape) for shape in alone] == [True, True, False, False, True, False, False, False, False, True, True]
+    assert prepare_shapes([]) == []
+
+
+def test_a_face_that_is_never_settled_keeps_no_other_from_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    alone = prepare_shape([box()])
+    monkeypatch.setattr("strake.importers.diagonals._MAX_ROUNDS", 3)
+    assert prepare_shape([box()]) == alone
+    slow = prepare_shape([lid(40)])
+    monkeypatch.setattr("strake.importers.diagonals._MAX_ROUNDS", 200)
+    assert prepare_shape([lid(40)]) != slow, "it needs more rounds"
+    monkeypatch.setattr("strake.importers.diagonals._MAX_ROUNDS", 3)
+    assert prepare_shapes([([box()], None), ([lid(40)], None), ([box()], None)]) == [alone, slow, alone]
+
+
+def test_a_scene_of_more_than_memory_is_to_hold_has_the_same_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, most in (("a", 1 << 20), ("b", 50)):
+        monkeypatch.setattr("strake.importers.scene_writer._MAX_IN_MEMORY", most)
+        with SceneWriter(tmp_path / f"{name}.glb") as scene:
+            for number in range(20):
+                scene.object(f"o{number}", "box", scene.shape([box(number + 1)]), moved(number, 0.5, 0))
+    assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.glb", "b.glb"]

@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import sysconfig
 import time
 from pathlib import Path
 from typing import Any
@@ -163,3 +164,34 @@ def test_orders_that_are_none_are_answered_or_passed_over(tmp_path: Path) -> Non
     assert ended(wrong) == {"status": 2} and "--input" in (wrong / "log").read_text()
     assert ended(host.begin("good", "good")) == {"status": 0}
     assert host.leave() == 0
+
+
+def test_files_that_the_installed_program_imports_together_have_the_bytes_of_each_alone(tmp_path: Path) -> None:
+    pytest.importorskip("ifcopenshell")
+    from conversions import convert
+    from ifc_model import IfcModel
+
+    programs = Path(sysconfig.get_path("scripts"))
+    files, alone = [], []
+    for number in range(3):
+        model = IfcModel()
+        wall = model.product("IfcWall", f"wall {number}", model.body(model.extrusion((4000, 200, 2500 + number))))
+        model.void(wall, model.body(model.extrusion((1000, 400, 1000), (0, 0, 900))))
+        files.append(model.write(tmp_path / f"{number}.ifc"))
+        alone.append(convert(files[-1], threads=1).output.read_bytes())
+    (tmp_path / "bad.ifc").write_text("nothing of the kind")
+    host = subprocess.Popen([programs / "strake-import-many-ifc"], stdin=subprocess.PIPE)
+    assert host.stdin is not None
+    folders = []
+    for file in (*files, tmp_path / "bad.ifc"):
+        folders.append(tmp_path / f"of {file.stem}")
+        folders[-1].mkdir()
+        words = ["--input", str(file), "--output", str(folders[-1] / "s.glb"), "--report", str(folders[-1] / "r"), "--threads", "1"]
+        (folders[-1] / "job.json").write_text(json.dumps({"arguments": words, "log": str(folders[-1] / "log")}))
+        host.stdin.write(f"run {folders[-1]}\n".encode())
+    host.stdin.flush()
+    assert [ended(folder) for folder in folders] == [{"status": 0}] * 3 + [{"status": 1}]
+    assert [(folder / "s.glb").read_bytes() for folder in folders[:3]] == alone
+    assert "no IFC" in last_line(folders[3])["error"]
+    host.stdin.close()
+    assert host.wait(30) == 0

@@ -88,7 +88,7 @@ fs::path program_for_several(const ImporterProgram& importer) {
   const std::string one = std::string(kProgram) + '-';
   const std::string name = importer.file.filename().string();
   if (!name.starts_with(one)) return {};
-  fs::path several = importer.file.parent_path() / (one + "many-" + name.substr(one.size()));
+  const fs::path several = importer.file.parent_path() / (one + "many-" + name.substr(one.size()));
   return is_program(several) ? several : fs::path();
 }
 

@@ -25,8 +25,8 @@ _QUANTITIES = {
     "IfcQuantityCount": ("CountValue", None),
     "IfcQuantityNumber": ("NumberValue", None),
 }
-# Where all versions have it in IfcProperty.
-_PROPERTY_NAME = 0
+# Where all versions have the name of an IfcProperty, and the properties of an IfcPropertySet and an IfcComplexProperty.
+PROPERTY_NAME, OF_SET, OF_COMPLEX = 0, 4, 3
 _OF_ALL_SETS = {"GlobalId", "OwnerHistory", "Name", "Description"}
 # Several names in one value: a pattern finds each.
 _BETWEEN = "; "
@@ -37,6 +37,7 @@ class AttributeReader:
 
     def __init__(self, model: Model, units: Units) -> None:
         self._units = units
+        self._tables = model.tables
         self._sets: dict[int, dict[str, Any]] = {}
         self._types: dict[int, dict[str, dict[str, Any]]] = {}
         self._shared: dict[tuple[int, ...], dict[str, Any]] = {}
@@ -112,7 +113,7 @@ class AttributeReader:
             if definition.is_a("IfcElementQuantity"):
                 known = self._quantities(definition.Quantities, 0)
             elif definition.is_a("IfcPropertySet"):
-                known = self._properties(definition.get("HasProperties"), 0)
+                known = self._properties(definition, OF_SET, 0)
             else:
                 known = self._predefined(definition)
             if len(self._sets) >= _MAX_SETS:
@@ -120,27 +121,34 @@ class AttributeReader:
             self._sets[definition.id()] = known
         return known
 
-    def _properties(self, properties: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
+    def _properties(self, owner: Entity, place: int, depth: int) -> dict[str, Any]:
+        """Returns the properties that an entity states at a place."""
         result: dict[str, Any] = {}
-        for item in properties or ():
-            kind = item.data.is_a()
+        properties = owner.data.get_argument(place)
+        if not isinstance(properties, tuple):
+            properties = owner.at(place)
+        for data in properties or ():
+            kind = data.is_a()
             if kind == "IfcPropertySingleValue":
                 # Nearly all are of this kind.
-                value = self._units.single(item)
-            elif kind == "IfcPropertyEnumeratedValue":
-                value = _single(self._units.value(list(item.EnumerationValues or ())))
-            elif kind == "IfcPropertyListValue":
-                value = _single(self._units.value(list(item.ListValues or ()), item.Unit))
-            elif kind == "IfcPropertyBoundedValue":
-                low, high = (self._units.value(bound, item.Unit) for bound in (item.LowerBoundValue, item.UpperBoundValue))
-                value = {name: bound for name, bound in (("low", low), ("high", high)) if bound is not None}
-            elif kind == "IfcComplexProperty" and depth < _MAX_DEPTH:
-                value = self._properties(item.HasProperties, depth + 1)
+                value = self._units.single(data)
             else:
-                continue
+                value = self._other_property(kind, Entity(data, self._tables), depth)
             if value not in (None, {}, []):
-                result[str(item.data.get_argument(_PROPERTY_NAME))] = value
+                result[str(data.get_argument(PROPERTY_NAME))] = value
         return result
+
+    def _other_property(self, kind: str, item: Entity, depth: int) -> Any:
+        if kind == "IfcPropertyEnumeratedValue":
+            return _single(self._units.value(list(item.EnumerationValues or ())))
+        if kind == "IfcPropertyListValue":
+            return _single(self._units.value(list(item.ListValues or ()), item.Unit))
+        if kind == "IfcPropertyBoundedValue":
+            low, high = (self._units.value(bound, item.Unit) for bound in (item.LowerBoundValue, item.UpperBoundValue))
+            return {name: bound for name, bound in (("low", low), ("high", high)) if bound is not None}
+        if kind == "IfcComplexProperty" and depth < _MAX_DEPTH:
+            return self._properties(item, OF_COMPLEX, depth + 1)
+        return None
 
     def _quantities(self, quantities: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
@@ -179,11 +187,11 @@ class AttributeReader:
     def _material(self, associations: Iterable[Entity], kind: Entity | None) -> str:
         for own in (True, False):
             for relation in associations if own else (kind.get("HasAssociations") if kind is not None else None) or ():
-                if relation.is_a("IfcRelAssociatesMaterial") and relation.RelatingMaterial is not None:
-                    material = relation.RelatingMaterial
-                    if material.id() not in self._materials:
-                        self._materials[material.id()] = _joined(_material_names(material, 0))
-                    return self._materials[material.id()]
+                if relation.is_a("IfcRelAssociatesMaterial") and (material := relation.get("RelatingMaterial")) is not None:
+                    number = material.id()
+                    if number not in self._materials:
+                        self._materials[number] = _joined(_material_names(material, 0))
+                    return self._materials[number]
         return ""
 
     def _layer(self, product: Entity) -> str:
@@ -230,9 +238,8 @@ def _type_in(relations: Iterable[Entity]) -> Entity | None:
 def _assigned(product: Entity) -> dict[str, str]:
     names: dict[str, list[str]] = {"System": [], "Zone": [], "Group": []}
     for relation in product.get("HasAssignments") or ():
-        if not relation.is_a("IfcRelAssignsToGroup") or relation.RelatingGroup is None:
+        if not relation.is_a("IfcRelAssignsToGroup") or (group := relation.get("RelatingGroup")) is None:
             continue
-        group = relation.RelatingGroup
         kind = "Zone" if group.is_a("IfcZone") else "System" if group.is_a("IfcSystem") else "Group"
         names[kind].append(group.Name or group.is_a())
     return {kind: _joined(found) for kind, found in names.items()}
@@ -241,8 +248,7 @@ def _assigned(product: Entity) -> dict[str, str]:
 def _classifications(associations: Iterable[Entity]) -> list[str]:
     names = []
     for relation in associations:
-        if relation.is_a("IfcRelAssociatesClassification") and relation.RelatingClassification is not None:
-            reference = relation.RelatingClassification
+        if relation.is_a("IfcRelAssociatesClassification") and (reference := relation.get("RelatingClassification")) is not None:
             names.append(
                 getattr(reference, "Identification", None)
                 or getattr(reference, "ItemReference", None)
@@ -256,14 +262,14 @@ def _material_names(material: Entity, depth: int) -> list[str]:
     if depth > _MAX_DEPTH:
         return []
     for single in ("ForLayerSet", "ForProfileSet", "Material"):
-        inner = getattr(material, single, None)
+        inner = material.get(single)
         if isinstance(inner, Entity):
             return _material_names(inner, depth + 1)
     names: list[str] = []
     for several in ("MaterialLayers", "MaterialProfiles", "MaterialConstituents", "Materials"):
-        for inner in getattr(material, several, None) or ():
+        for inner in material.get(several) or ():
             names += _material_names(inner, depth + 1)
-    return names or [getattr(material, "Name", None) or getattr(material, "LayerSetName", None) or ""]
+    return names or [material.get("Name") or material.get("LayerSetName") or ""]
 
 
 def _joined(names: Iterable[str]) -> str:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from strake.importers.ifc.cuts import cut_products
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.faces import Faces, faces_of
-from strake.importers.ifc.kernels import CUT, SAG_M, geometry_settings, shapes_of
+from strake.importers.ifc.kernels import CUT, FAST, SAG_M, geometry_settings, shapes_of
 from strake.importers.ifc.pinched import outlines_of, split_face
 from strake.importers.ifc.solids import Mesh
 from strake.importers.shapes import NO_COLOR, Color, Part, PreparedShape, prepare_shapes
@@ -30,6 +30,7 @@ _MM_PER_M = 1000.0
 # Answers come together that come within so many seconds: each by itself takes time of both who gives and who gets it.
 _TOGETHER_S = 0.05
 _MAX_TRIANGLES = 50_000
+_MAX_KEPT_TRIANGLES = 300_000
 
 
 class Chunk(NamedTuple):
@@ -95,6 +96,28 @@ def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M, batch: Batch
 
 
 def _made(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Answer]]:
+    pinched = {number: model.pinched[number] for number in chunk.products if number in model.pinched} if chunk.kernel == FAST else {}
+    if not pinched:
+        yield from _made_twice(model, chunk, sag_m, log, batch)
+        return
+    before = [one for face in sorted(set().union(*pinched.values())) for one in split_face(model, face, outlines_of(model, face))]
+    for converted in _converted_by(model, chunk, sag_m, log, batch):
+        yield [*converted]
+    remarks = list(_remarks(log, chunk))
+    if not any(remark.product in pinched for remark in remarks):
+        yield [*batch.take(), *remarks]
+        return
+    # More is wrong with one of them: as if nothing had been known.
+    for owner, faces in reversed(before):
+        owner.CfsFaces = faces
+    model.pinched = {}
+    log.clear()
+    yield [*batch.take(), Again(chunk.products)]
+    yield from _made_twice(model, chunk, sag_m, log, batch)
+
+
+def _made_twice(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Answer]]:
+    """Converts a chunk, and once more what has faces that were left out and could be split."""
     keys: dict[int, bytes] = {}
     for converted in _converted_by(model, chunk, sag_m, log, batch):
         keys.update((one.product, one.key) for one in converted)
@@ -121,7 +144,7 @@ def _made(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> I
 class Batch:
     """Products that have a shape of a kernel, until they are answered together."""
 
-    def __init__(self, together_s: float = _TOGETHER_S) -> None:
+    def __init__(self, together_s: float = _TOGETHER_S, keeps: bool = False) -> None:
         self._together_s = together_s
         self._began = time.monotonic()
         self._products: list[tuple[int, str, bytes, str]] = []
@@ -129,6 +152,15 @@ class Batch:
         self._known: dict[str, tuple[bytes, tuple[float, float, float]] | str] = {}
         self._triangles = 0
         self._number = 0
+        # Calls of kernels of which it is not worth the time to take apart what they hold, for a process that ends soon.
+        self._keeps = keeps
+        self._kept: list[Any] = []
+        self._kept_triangles = 0
+
+    def keep(self, iterator: Any) -> None:
+        """Has what a kernel holds taken apart later: not at all, where the process ends before, and there is little of it."""
+        if self._keeps and self._kept_triangles < _MAX_KEPT_TRIANGLES:
+            self._kept.append(iterator)
 
     def next_number(self) -> int:
         """Returns a number that no other call gets."""
@@ -143,7 +175,9 @@ class Batch:
         """Adds a shape; one without a triangle is none."""
         if parts:
             self._new[name] = parts, sag_mm
-            self._triangles += sum(np.size(part.triangles) // 3 for part in parts)
+            count = sum(np.size(part.triangles) // 3 for part in parts)
+            self._triangles += count
+            self._kept_triangles += count
         else:
             self._known[name] = EMPTY
 
@@ -192,6 +226,7 @@ def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Bat
         if chunk.watched or batch.is_due():
             yield batch.take()
         going = bool(iterator.next())
+    batch.keep(iterator)
 
 
 def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any, batch: Batch) -> Iterator[list[Answer]]:

@@ -9,14 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Again, Chunk, Converted, Remark, convert_chunk
-from strake.importers.ifc.ends import Convert, Ended
+from strake.importers.ifc.ends import Convert, Ended, is_tried_again
 from strake.importers.ifc.entity import Entity, Model, number_of
 from strake.importers.ifc.here import Here
 from strake.importers.ifc.kernels import CUT, EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
@@ -57,7 +57,8 @@ class ShapeStore:
     """Shapes until the scene is written in its order: small ones as they are, so far as there are few, the others on disk."""
 
     def __init__(self, folder: Path) -> None:
-        self._file = tempfile.TemporaryFile(dir=folder)
+        self._folder = folder
+        self._file: IO[bytes] | None = None
         self._places: dict[bytes, tuple[int, int]] = {}
         self._held: dict[bytes, PreparedShape] = {}
         self._held_bytes = 0
@@ -71,6 +72,8 @@ class ShapeStore:
             self._held[shape.key] = shape
             self._held_bytes += size
             return
+        if self._file is None:
+            self._file = tempfile.TemporaryFile(dir=self._folder)
         data = pickle.dumps(shape, pickle.HIGHEST_PROTOCOL)
         self._file.seek(0, 2)
         self._places[shape.key] = (self._file.tell(), len(data))
@@ -80,6 +83,7 @@ class ShapeStore:
         """Returns a shape that was added."""
         if key in self._held:
             return self._held[key]
+        assert self._file is not None
         offset, size = self._places[key]
         self._file.seek(offset)
         shape = pickle.loads(self._file.read(size))
@@ -98,6 +102,7 @@ class Conversion:
     remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     bodyless: list[int] = field(default_factory=list)
     slow_cuts: int = 0  # products that manifold3d would cut, if it were installed
+    made_by: object = None  # it may hold what need not be taken apart
 
     def remarks_of(self, number: int) -> list[str]:
         """Returns the faults that the kernel found which made the shape; where none did, those of all."""
@@ -159,6 +164,7 @@ def convert_products(
     few = len(tasks) <= (_MAX_HERE if threads == 1 else _MAX_BESIDE_OTHERS)
     here = attempt if few and attempt is not None and not attempt.is_careful else None
     with _workers(model, threads, convert) if here is None else Here(model, here, convert) as workers:
+        result.made_by = workers
         for chunk in chunks_of(tasks, kernels_of):
             workers.add(chunk)
         for event in workers.answers():
@@ -201,8 +207,7 @@ def _keep(event: Converted, result: Conversion) -> None:
 def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers | Here, result: Conversion) -> None:
     """Sends what a chunk left behind on: to the next kernel, or after a crash apart from the product that it was at."""
     chunk, missing = ended.chunk, ended.missing
-    if ended.fault and missing and not chunk.watched and len(chunk.products) > 1 and not (ended.hung and chunk.kernel == CUT):
-        # Answers that were to come together are lost: it is not known at which product it was.
+    if ended.fault and missing and is_tried_again(chunk) and not (ended.hung and chunk.kernel == CUT):
         workers.add(Chunk(missing, chunk.kernel, chunk.attempt, watched=True))
         return
     if ended.fault and len(chunk.products) > 1 and missing:

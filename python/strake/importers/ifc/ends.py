@@ -26,6 +26,12 @@ Event = Converted | Remark | Again | Ended
 Convert = Callable[..., Iterator[list[Answer]]]
 
 
+def is_tried_again(chunk: Chunk) -> bool:
+    """Whether a chunk that a process did not survive is given to another, and watched: its answers were to come together, so that it is
+    not known at which product it was."""
+    return not chunk.watched and len(chunk.products) > 1
+
+
 def missing_of(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
     """Returns the products of a chunk that have no shape."""
     return tuple(number for number in chunk.products if number not in got)

@@ -120,17 +120,19 @@ class Model:
 
     def __init__(self, file: ifcopenshell.file) -> None:
         self.file: Any = file
-        self._tables = Tables()
+        self.tables = Tables()
         self.schema = str(file.schema)
         self.schema_identifier = str(file.schema_identifier)
+        # Faces that are split before kernels see them, by product (importers/ifc/pinched.py).
+        self.pinched: dict[int, list[int]] = {}
 
     def by_type(self, kind: str) -> list[Entity]:
         """Returns the entities of a class and of those made from it."""
-        return [Entity(data, self._tables) for data in self.file.by_type(kind)]
+        return [Entity(data, self.tables) for data in self.file.by_type(kind)]
 
     def by_id(self, number: int) -> Entity:
         """Returns the entity of a number."""
-        return Entity(self.file.by_id(number), self._tables)
+        return Entity(self.file.by_id(number), self.tables)
 
 
 def is_a(entity: Entity, kind: str) -> bool:

@@ -18,7 +18,7 @@ from strake.importers.supervision import Attempt
 
 # What works for so long without an answer, in seconds of CPU time, or waits for so long, is left to workers, which know better
 # what to do about it.
-MAX_SILENT_S = 2.0
+MAX_SILENT_S = 4.0
 _MAX_WAITING_S = 30.0
 _TOGETHER_S = 0.5
 
@@ -33,7 +33,7 @@ class Here:
         self._queue: deque[Chunk] = deque()
         self._limits = ExitStack()
         # Small shapes of several chunks are prepared together.
-        self._batch = Batch(_TOGETHER_S)
+        self._batch = Batch(_TOGETHER_S, keeps=True)
         self._open: list[Chunk] = []
         self._got: set[int] = set()
 

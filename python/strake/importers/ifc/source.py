@@ -13,6 +13,7 @@ import ifcopenshell
 from ifcopenshell import ifcopenshell_wrapper
 
 from strake.importers.ifc.entity import Model
+from strake.importers.ifc.pinched import faces_by_text
 from strake.importers.report import Report
 
 _EXPORT = "export the model as IFC (STEP) again, in version IFC4 or IFC2x3"
@@ -100,6 +101,7 @@ def _opened(path: Path, report: Report) -> Model:
     except (ifcopenshell.Error, ifcopenshell.SchemaError, OSError, RuntimeError, ValueError) as fault:
         fault_text = _first_fault(log) or str(fault)
         report.fail(f"IfcOpenShell cannot read it: {fault_text}", _EXPORT)
+    model.pinched = faces_by_text(model, path)
     if not model.by_type("IfcProject"):
         report.warning("ifc-no-project", "the file has no IfcProject: units are taken to be metres")
     if fault_text := _first_fault(log):

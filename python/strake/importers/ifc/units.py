@@ -63,6 +63,7 @@ class Units:
     """The units of a project."""
 
     def __init__(self, model: Model, report: Report) -> None:
+        self._tables = model.tables
         self._names: dict[str, str] = {}
         # By classes of values, as IfcLengthMeasure, which have one value: the unit of the project.
         self._name_of_measure: dict[str, str] = {}
@@ -89,20 +90,20 @@ class Units:
         name = unit_name(own_unit) if own_unit is not None else self._name_of(kind)
         return self._number(value, name)
 
-    def single(self, item: Entity) -> Any:
-        """Returns the value of an IfcPropertySingleValue. Half of a file are such: it is asked for no more than that takes."""
-        data = item.data
+    def single(self, data: Any) -> Any:
+        """Returns the value of an IfcPropertySingleValue, as IfcOpenShell has it. Half of a file are such: they are asked for no more than
+        that takes."""
         nominal = data.get_argument(NOMINAL_VALUE)
         if nominal is None:
             return None
-        name = self._name_of_measure.get(nominal.is_a()) if isinstance(nominal, RawEntity) else None
+        name = self._name_of_measure.get(nominal.is_a()) if type(nominal) is RawEntity else None
         if name is None or data.get_argument(UNIT) is not None:
-            return self._any_single(item)
+            return self._any_single(Entity(data, self._tables))
         value = nominal.get_argument(0)
         kind = type(value)
-        if kind is int or kind is float:
-            return self._number(value, name)
-        return value if kind is str or kind is bool else self._any_single(item)
+        if kind is str or kind is bool:
+            return value
+        return self._number(value, name) if kind is int or kind is float else self._any_single(Entity(data, self._tables))
 
     def _any_single(self, item: Entity) -> Any:
         value = item.at(NOMINAL_VALUE)

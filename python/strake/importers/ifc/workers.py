@@ -15,7 +15,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from strake.importers.ifc.chunks import Answer, Chunk, convert_chunk
-from strake.importers.ifc.ends import Convert, Ended, Event, answers_of, bounded_memory, missing_of, note_answers
+from strake.importers.ifc.ends import Convert, Ended, Event, answers_of, bounded_memory, is_tried_again, missing_of, note_answers
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT
 from strake.importers.supervision import end_with_parent, signal_name
@@ -26,6 +26,7 @@ MAX_SILENT_S = 60.0
 _MAX_WAITING = 5.0
 # After each that hung it is half as long, down to this.
 MIN_SILENT_S = 8.0
+_SOON_S = 10.0
 _TICK_S = 0.5
 # Who is silent for longer is looked at, which takes the system as long as an answer.
 _LOOKED_AT_S = 0.1
@@ -91,7 +92,7 @@ class Workers:
                 yield from self._heard(worker)
             if not ready:
                 yield None
-            for worker in [w for w in self._workers if w.chunk and w.is_silent_for(self._silent_s)]:
+            for worker in [w for w in self._workers if w.chunk and w.is_silent_for(self._limit_s(w.chunk))]:
                 yield self._hung(worker)
 
     def _hand_out(self) -> None:
@@ -135,8 +136,15 @@ class Workers:
         note_answers(answers, worker.got)
         return [*answers]
 
+    def _limit_s(self, chunk: Chunk) -> float:
+        """Returns for how long a worker may be silent at a chunk. One of which answers come together is soon begun anew, and watched."""
+        return min(self._silent_s, _SOON_S) if is_tried_again(chunk) and chunk.kernel != CUT else self._silent_s
+
     def _hung(self, worker: _Worker) -> Ended:
-        ended = self._lost(worker, f"no answer for {self._silent_s:g} s")
+        assert worker.chunk is not None
+        ended = self._lost(worker, f"no answer for {self._limit_s(worker.chunk):g} s")
+        if is_tried_again(ended.chunk):
+            return ended._replace(hung=True)
         # Where one product has no end others have none either, and a hundred of them must not take hours. A chunk that is cut
         # goes on as a whole, and says nothing of the kernels that come after.
         if ended.chunk.kernel != CUT:

@@ -116,15 +116,15 @@ std::unique_ptr<ImportHost> ImportHost::start(const fs::path& program) {
 }
 
 ImportHost::~ImportHost() {
-  // It ends when nobody can tell it anything any more.
+  // All files have ended: it holds nothing that is worth to wait for, and is killed.
   ::close(orders_);
-  static_cast<void>(wait_for_end(*process_, kPatienceS));
 }
 
 bool ImportHost::order(std::string_view word, const fs::path& folder) const {
   const std::string line = std::string(word) + ' ' + folder.string() + '\n';
-  // So short a text is sent as a whole, whichever other threads send something.
-  return ::send(orders_, line.data(), line.size(), MSG_NOSIGNAL) ==
+  // So short a text is sent as a whole, whichever other threads send something. Who does not read
+  // hundreds of them is as good as gone.
+  return ::send(orders_, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
          static_cast<ssize_t>(line.size());
 }
 
