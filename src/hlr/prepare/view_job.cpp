@@ -189,11 +189,14 @@ constexpr std::size_t kBodiesPerBlock = 4096;
 Status fill_bodies(ViewJob& job, const parallel::Context& context) {
   const model::Scene& scene = *job.scene;
   job.opaque.resize(scene.bodies.size());
-  job.contact.resize(scene.bodies.size());
+  auto contact = parallel::unset_slots<std::int64_t>(scene.bodies.size());
+  if (!contact) return contact.error();
+  job.contact = std::move(*contact);
   return parallel::for_each(
       context, {.name = "view: bodies", .n = scene.bodies.size(), .grain = kBodiesPerBlock},
       [&](std::size_t b) {
         const model::GridBody& body = scene.bodies[b];
+        job.contact[b] = 0;
         if (!job.drawn[model::index(body.object)]) return;
         const model::Body& placed = scene.model->bodies[body.body];
         job.opaque[b] = placed.color.alpha == 255;

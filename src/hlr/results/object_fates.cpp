@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,7 +14,7 @@
 
 #include "hlr/prepare/view_diagnostics.hpp"
 #include "strake/parallel/collect.hpp"
-#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -89,18 +90,38 @@ Fate fate_without_body(const model::Scene& scene, std::uint32_t object) {
   return vanished ? Fate::degenerate : Fate::failed;
 }
 
-void list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, Account& account) {
-  for (std::uint32_t object = 0; object < account.fates.size(); ++object) {
-    const Fate fate = account.fates[object];
-    if (fate == Fate::unselected) continue;
+/// Returns the objects that are drawn and lack some of their geometry, or are degenerate.
+Result<std::vector<std::uint32_t>> objects_with_defects(const model::Scene& scene,
+                                                        const Account& account,
+                                                        const parallel::Context& context) {
+  if (scene.lacking.empty() && account.of(Fate::degenerate) == 0)
+    return std::vector<std::uint32_t>{};
+  return parallel::collect<std::uint32_t>(
+      context,
+      {.name = "objects with defects", .n = account.fates.size(), .grain = kObjectsPerItem},
+      [&](std::size_t o, std::vector<std::uint32_t>& out) {
+        const auto object = static_cast<std::uint32_t>(o);
+        const Fate fate = account.fates[object];
+        if (fate != Fate::unselected &&
+            (fate == Fate::degenerate || !lacking_of(scene, object).empty()))
+          out.push_back(object);
+      });
+}
+
+Status list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, Account& account,
+                    const parallel::Context& context) {
+  const auto defective = objects_with_defects(scene, account, context);
+  if (!defective) return defective.error();
+  for (const std::uint32_t object : *defective) {
     const auto lacking = lacking_of(scene, object);
     const bool placed = scene.first_body[object] < scene.first_body[object + 1];
     if (placed && !lacking.empty()) ++account.in_part;
     for (const model::IncompleteObject& l : lacking) account.defects.push_back({l.object, l.code});
-    if (fate != Fate::degenerate || !lacking.empty()) continue;
+    if (!lacking.empty()) continue;
     const bool points = std::ranges::binary_search(pieces, object, {}, object_of);
     account.defects.push_back({model::ObjectId{object}, points ? kOnlyPoints : "no-lines"});
   }
+  return {};
 }
 
 }  // namespace
@@ -153,25 +174,33 @@ Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& d
   const std::span<const EdgePiece> pieces = drawing.pieces;
   Account account;
   account.fates.resize(drawn.size());
-  const Status status = parallel::for_each(
+  using Counts = std::array<std::uint64_t, kFates>;
+  const auto count = parallel::reduce(
       context,
       {.name = "account of objects", .n = (drawn.size() + kObjectsPerItem - 1) / kObjectsPerItem},
-      [&](std::size_t item) {
+      Counts{},
+      [&](Counts& of_fate, std::size_t item) {
         const auto begin = static_cast<std::uint32_t>(item * kObjectsPerItem);
         const auto end =
             static_cast<std::uint32_t>(std::min(drawn.size(), begin + kObjectsPerItem));
         auto next = static_cast<std::size_t>(
             std::ranges::lower_bound(pieces, begin, {}, object_of) - pieces.begin());
         for (std::uint32_t object = begin; object < end; ++object) {
-          if (!drawn[object]) continue;
-          const bool placed = scene.first_body[object] < scene.first_body[object + 1];
-          account.fates[object] =
-              placed ? fate_of(object, drawing, next) : fate_without_body(scene, object);
+          Fate& fate = account.fates[object];
+          if (drawn[object])
+            fate = scene.first_body[object] < scene.first_body[object + 1]
+                       ? fate_of(object, drawing, next)
+                       : fate_without_body(scene, object);
+          ++of_fate[static_cast<std::size_t>(fate)];
         }
+      },
+      [](Counts& into, const Counts& of_fate) {
+        for (std::size_t f = 0; f < kFates; ++f) into[f] += of_fate[f];
       });
-  if (!status) return status.error();
-  for (const Fate fate : account.fates) ++account.count[static_cast<std::size_t>(fate)];
-  list_defects(scene, pieces, account);
+  if (!count) return count.error();
+  account.count = *count;
+  if (const Status status = list_defects(scene, pieces, account, context); !status)
+    return status.error();
   return account;
 }
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -277,21 +279,22 @@ SpeckRule::SpeckRule(const ViewJob& job)
     : viewer_(job.viewer),
       origin_(job.origin),
       direction_length_(geometry::length(job.direction().as<double>())),
-      keeps_hidden_(job.options.hidden),
-      longest_(job.drawn.size()) {}
+      keeps_hidden_(job.options.hidden) {}
 
 Result<SpeckRule> SpeckRule::of(const ViewJob& job, const parallel::Context& context) {
   SpeckRule rule(job);
-  if (job.options.keep_specks) return rule;
   const std::vector<std::uint32_t>& first_body = job.scene->first_body;
-  const Status status = parallel::for_each(
+  auto longest = parallel::transform(
       context, {.name = "hidden lines: longest specks", .n = job.drawn.size(), .grain = 4096},
       [&](std::size_t object) {
+        std::int64_t longest_speck = 0;
+        if (job.options.keep_specks) return longest_speck;
         for (std::size_t b = first_body[object]; b < first_body[object + 1]; ++b)
-          rule.longest_[object] =
-              std::max(rule.longest_[object], kContactsPerSpeck * job.contact[b]);
+          longest_speck = std::max(longest_speck, kContactsPerSpeck * job.contact[b]);
+        return longest_speck;
       });
-  if (!status) return status.error();
+  if (!longest) return longest.error();
+  rule.longest_ = std::move(*longest);
   return rule;
 }
 
@@ -352,7 +355,7 @@ bool has_visible_specks(const SpeckRule& rule, std::size_t first,
 
 Status dot_lone_specks(const ViewJob& job, const SpeckedObjects& specked,
                        const parallel::Context& context, Drawing& drawing) {
-  if (job.options.keep_specks) return {};
+  if (job.options.keep_specks || std::ranges::find(specked, 1) == specked.end()) return {};
   const auto made = SpeckRule::of(job, context);
   if (!made) return made.error();
   const SpeckRule& rule = *made;

@@ -350,8 +350,7 @@ Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Contex
       std::size_t{0},
       [&](std::size_t& sum, std::size_t b) {
         const BodyInstance& placed = visibility.placed[b];
-        if (placed.shape != nullptr && !visibility.leaves_out(placed))
-          sum += placed.shape->edges.size();
+        if (placed.shape != nullptr) sum += placed.shape->edges.size();
       },
       [](std::size_t& into, std::size_t sum) { into += sum; });
   if (!edges) return edges.error();
