@@ -32,7 +32,7 @@ struct IntersectionRule {
   /// By object: the lines that are drawn with it are wanted. Empty: those of all objects.
   std::vector<bool> to_solve = {};
   /// Returns whether lines in a box, grid units, are wanted; none are looked for of parts in other
-  /// ones. Empty: all lines are wanted.
+  /// ones (decision 0127). Empty: all lines are wanted.
   std::function<bool(const geometry::Box3l& box)> shows = {};
 };
 

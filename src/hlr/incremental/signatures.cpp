@@ -107,8 +107,9 @@ Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
 
 // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
 constexpr std::size_t kObjectsPerBlock = 1024;
-/// To be raised when the same scene and view give another drawing than before.
-constexpr std::uint32_t kRulesOfDrawing = 6;
+/// To be raised when the same scene and view give another drawing than before; the first where
+/// clipped edges are kept, in a parallel view, and the second else.
+constexpr std::uint32_t kRulesOfDrawing = 5, kRulesOfOthers = 6;
 
 void add(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
 
@@ -237,7 +238,9 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   if (!tessellation_options) return tessellation_options.error();
   Signatures result;
   Hasher hasher;
-  hasher.add(kRulesOfDrawing).add(scene.sag_mm).add(scene.weld_mm);
+  hasher.add(options.clipped && !view.perspective ? kRulesOfDrawing : kRulesOfOthers)
+      .add(scene.sag_mm)
+      .add(scene.weld_mm);
   add(hasher, view);
   add(hasher, options);
   result.view = hasher.value();

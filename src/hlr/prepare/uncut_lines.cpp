@@ -70,8 +70,8 @@ Result<std::vector<IntersectionLine>> lines_with_uncut(const ViewJob& job,
     return std::vector<IntersectionLine>{};
   const std::vector<bool> objects = objects_near_uncut(job);
   const model::Scene left = scene_of_what_is_left(job, objects);
-  auto found =
-      find_intersection_lines(left, objects, job.contact, {Intersections::objects, 1}, context);
+  auto found = find_intersection_lines(left, objects, job.contact,
+                                       {Intersections::objects, 1, {}, job.shows_lines}, context);
   if (!found) return found.error();
   std::erase_if(found->all, [&](const IntersectionLine& line) {
     return job.is_uncut(line.body_a) == job.is_uncut(line.body_b);

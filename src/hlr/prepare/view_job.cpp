@@ -393,14 +393,13 @@ Status cut_bodies(ViewJob& job, std::span<const SectionPlane> planes, const Whol
   return {};
 }
 
-/// Returns which lines of intersection a view wants: clipped ones only where they are kept.
-IntersectionRule intersection_rule(const ViewJob& job, std::span<const SectionPlane> planes) {
-  IntersectionRule rule{job.options.intersections, job.cos_sharp, job.to_solve};
+/// Returns ViewJob::shows_lines.
+std::function<bool(const Box3l&)> where_lines_are_shown(const ViewJob& job,
+                                                        std::span<const SectionPlane> planes) {
   const ViewVolume shown = shown_volume(job.view, job.options, planes);
+  if (job.options.clipped || !shown.is_bounded()) return {};
   // A line along the border of what is shown is kept, too.
-  if (!job.options.clipped && shown.is_bounded())
-    rule.shows = [shown](const Box3l& box) { return shown.meets(box.inflated(1)); };
-  return rule;
+  return [shown](const Box3l& box) { return shown.meets(box.inflated(1)); };
 }
 
 }  // namespace
@@ -411,8 +410,10 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   auto begun = begin_job(input, context);
   if (!begun) return begun.error();
   ViewJob job = std::move(*begun);
-  const auto crossings = find_intersection_lines(*job.scene, job.drawn, job.contact,
-                                                 intersection_rule(job, *planes), context);
+  job.shows_lines = where_lines_are_shown(job, *planes);
+  const auto crossings = find_intersection_lines(
+      *job.scene, job.drawn, job.contact,
+      {job.options.intersections, job.cos_sharp, job.to_solve, job.shows_lines}, context);
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;

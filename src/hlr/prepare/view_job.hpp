@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -72,10 +73,13 @@ struct ViewJob {
   std::optional<geometry::Box3l> limits;  ///< relative to origin, clipped to what is drawn
   std::vector<bool> drawn;                ///< per object
   std::vector<bool> to_solve;             ///< as WholeView::asked; or empty
-  std::vector<bool> opaque;               ///< per body: is drawn, and hides what lies behind it
-  std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
-  double contact_distance_mm = 0;         ///< the largest contact distance
-  std::vector<bool> uncut;                ///< per object: sections leave it whole; or empty
+  /// As IntersectionRule::shows: clipped lines are looked for only where they are kept (decision
+  /// 0127).
+  std::function<bool(const geometry::Box3l& box)> shows_lines;
+  std::vector<bool> opaque;           ///< per body: is drawn, and hides what lies behind it
+  std::vector<std::int64_t> contact;  ///< per body: contact distance in grid units
+  double contact_distance_mm = 0;     ///< the largest contact distance
+  std::vector<bool> uncut;            ///< per object: sections leave it whole; or empty
   SectionedShapes sectioned;
   std::vector<Hatch> hatches;  ///< per object; empty: nothing is hatched
   Lines lines;

@@ -52,9 +52,18 @@ std::size_t end_of_object(std::span<const EdgePiece> pieces, std::size_t first) 
                                           ahead.begin());
 }
 
+/// Returns whether any body of an object has faces.
+bool has_faces(const model::Scene& scene, std::uint32_t object) {
+  for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b)
+    for (const geometry::Part& part : scene.shapes[scene.bodies[b].grid_shape].parts)
+      if (!part.triangles.empty()) return true;
+  return false;
+}
+
 /// Returns the fate of an object that is on the grid, by its lines; advances `next` beyond them.
 /// It looks at no more of them than it must: pieces of millions are in no cache.
-Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
+Fate fate_of(const model::Scene& scene, std::uint32_t object, const Drawing& drawing,
+             std::size_t& next) {
   const std::span<const EdgePiece> pieces = drawing.pieces;
   bool point = false;
   bool clipped = !drawing.clipped_left_out.empty() && drawing.clipped_left_out[object] > 0;
@@ -70,7 +79,11 @@ Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
     point = point || state == State::projecting;
   }
   if (hidden) return Fate::hidden;
-  return clipped && !point ? Fate::clipped : Fate::degenerate;
+  if (point) return Fate::degenerate;
+  // Smooth faces all round an eye have neither edge nor contour, and show no line: that is no
+  // defect of theirs.
+  return clipped || (drawing.view.perspective && has_faces(scene, object)) ? Fate::clipped
+                                                                           : Fate::degenerate;
 }
 
 std::span<const model::IncompleteObject> lacking_of(const model::Scene& scene,
@@ -189,7 +202,7 @@ Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& d
           Fate& fate = account.fates[object];
           if (drawn[object])
             fate = scene.first_body[object] < scene.first_body[object + 1]
-                       ? fate_of(object, drawing, next)
+                       ? fate_of(scene, object, drawing, next)
                        : fate_without_body(scene, object);
           ++of_fate[static_cast<std::size_t>(fate)];
         }

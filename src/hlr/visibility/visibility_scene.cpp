@@ -76,7 +76,7 @@ bool is_beyond(std::span<const HalfSpace> sides, const Box3l& box) {
 }
 
 /// Finds what limits, frustum and sections leave of a body; decision 0127 says what for.
-void limit(const ViewJob& job, std::uint32_t b, BodyInstance& placed) {
+void compare_with_view(const ViewJob& job, std::uint32_t b, BodyInstance& placed) {
   const SectionedShape& sectioned = job.sectioned_shape_of(b);
   placed.outside = sectioned.away;
   placed.opaque = placed.opaque && !sectioned.away;
@@ -113,7 +113,7 @@ BodyInstance placed_body(const VisibilityScene& visibility, std::uint32_t b) {
   placed.within = job.sectioned_shape_of(b).within;
   placed.opaque = job.opaque[b];
   placed.forgives_rounding = job.forgives_rounding(b);
-  limit(job, b, placed);
+  compare_with_view(job, b, placed);
   return placed;
 }
 

@@ -83,8 +83,8 @@ struct VisibilityScene {
   ViewBvh tree;                      ///< over the columns
   OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
-  /// By object: edges that are in no item, as all of their bodies is clipped and nobody requests
-  /// clipped edges. Empty where somebody does.
+  /// By object: the edges of its bodies that are clipped wholly, which are in no item. Empty where
+  /// clipped edges are requested.
   std::vector<std::uint32_t> outside;
 
   /// Returns whether the edges of a body are in no item.

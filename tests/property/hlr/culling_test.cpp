@@ -254,6 +254,9 @@ TEST(Culling, LeavingClippedEdgesOutChangesNoOther) {
     options.solver = seed % 8 == 0                        ? hlr::Solver::brute_force
                      : seed % 8 == 4 && !view.perspective ? hlr::Solver::push
                                                           : hlr::Solver::gather;
+    if (!view.sections.empty() && random.one_in(2))
+      for (std::size_t o = 0; o < scene.scene().model->objects.size(); ++o)
+        options.uncut.push_back(random.one_in(4));
     auto full = hlr::draw(scene.scene(), {}, view, options, {});
     options.clipped = false;
     auto other = hlr::draw(scene.scene(), {}, view, options, {});
@@ -304,6 +307,51 @@ TEST(Culling, WhatCrossesOutsideOfTheLimitsIsNotLookedFor) {
   view.limits = {};
   view.sections = {{{1, 0, 0}, {99999, 0, 0}}};
   EXPECT_EQ(pairs(false), 5U);
+}
+
+// Seen from within, smooth faces have no line but where they cross others; here that is behind the
+// eye.
+TEST(Culling, SmoothFacesAllRoundTheEyeAreClipped) {
+  SceneBuilder scene;
+  scene.object({{.parts = {hand_box({-9000, -9000, -9000}, {9000, 9000, 9000})}, .origin = {}}});
+  hlr::View view{.direction = {0, 1, 0}};
+  view.perspective = {.eye = {0, 0, 0}, .target = {0, -5000, 0}, .near_mm = 1};
+  const auto fates = [&](bool clipped) {
+    const auto drawing =
+        hlr::draw(scene.scene(), {}, view,
+                  {.sharp_angle_deg = 120, .smooth = hlr::Smooth::off, .clipped = clipped}, {});
+    EXPECT_TRUE(drawing.has_value());
+    if (!drawing) return std::vector<hlr::Fate>{};
+    EXPECT_TRUE(drawing->account.defects.empty());
+    return drawing->account.fates;
+  };
+  const std::vector<hlr::Fate> alone(1, hlr::Fate::clipped), both(2, hlr::Fate::clipped);
+  EXPECT_EQ(fates(true), alone);
+  EXPECT_EQ(fates(false), alone);
+  scene.object({{.parts = {hand_box({-500, 8000, -500}, {500, 9900, 500})}, .origin = {}}});
+  EXPECT_EQ(fates(true), both);
+  EXPECT_EQ(fates(false), both);
+}
+
+TEST(Culling, LinesWithWhatIsLeftWholeAreNotLookedForOutside) {
+  SceneBuilder scene;
+  scene.object({{.parts = {hand_box({0, 0, -9000}, {900, 900, 9000})}, .origin = {}}});
+  for (int i = 0; i < 9; ++i)
+    scene.object(
+        {{.parts = {hand_box({-3000, -3000, 0}, {3000, 3000, 300})}, .origin = {0, 0, 1000 * i}}});
+  hlr::View view{.direction = {1, -2, 3}};
+  view.sections = {{{0, 1, 0}, {0, 450, 0}}};
+  view.limits = geometry::Box3l{{-4000, -4000, -9000}, {4000, 4000, 500}};
+  hlr::Options options;
+  options.uncut = std::vector<bool>(10);
+  options.uncut[0] = true;
+  const auto lines = [&](bool clipped) {
+    options.clipped = clipped;
+    const auto drawing = hlr::draw(scene.scene(), {}, view, options, {});
+    return drawing ? drawing->counters.feature_edges : 0;
+  };
+  // Of eight plates outside each has four lines with the post that is whole.
+  EXPECT_EQ(lines(true), lines(false) + 8 * 8);
 }
 
 TEST(Culling, OneShapeIsTestedAgainstItselfOnce) {
