@@ -15,6 +15,7 @@ import os
 import select
 import signal
 import sys
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,12 +26,15 @@ from strake.importers.supervision import end_with_parent
 _LINE_BYTES = 1 << 16
 # What a shell says of a program that is called wrongly.
 _WRONG_WORDS = 2
+# What Python says of a program that raised an exception.
+_FAULT = 1
 
 
 def run_several(convert: Convert, load: Callable[[], Any]) -> int:
     """Converts the files that the lines of standard input name, each as `run` does. `load` loads what all need."""
     if not hasattr(os, "fork"):
         return _WRONG_WORDS
+    end_with_parent(os.getppid())
     # What cannot be loaded is told of each file.
     with contextlib.suppress(ImportError):
         load()
@@ -66,6 +70,9 @@ class _Host:
                 *lines, rest = (rest + more).split(b"\n")
                 for line in lines:
                     self._obey(os.fsdecode(line))
+        self._end_all()
+
+    def _end_all(self) -> None:
         for process in self._folders:
             _kill(process)
 
@@ -85,7 +92,7 @@ class _Host:
             arguments, log = [str(word) for word in stated["arguments"]], str(stated["log"])
             job.unlink()
         except (OSError, ValueError, KeyError, TypeError):
-            _answer(folder, {"status": _WRONG_WORDS})
+            self._answer(folder, {"status": _WRONG_WORDS})
             return
         parent = os.getpid()
         process = os.fork()
@@ -102,10 +109,18 @@ class _Host:
                 status = run(self._convert, arguments)
             except SystemExit as wrong:  # the words make no sense, which is said in the log
                 status = wrong.code if isinstance(wrong.code, int) else _WRONG_WORDS
+            except BaseException:
+                # As from a program of its own.
+                status = _FAULT
+                with contextlib.suppress(OSError):
+                    traceback.print_exc()
             finally:
-                sys.stdout.flush()
-                sys.stderr.flush()
-                os._exit(status)
+                try:
+                    for stream in (sys.stdout, sys.stderr):
+                        with contextlib.suppress(OSError, ValueError):
+                            stream.flush()
+                finally:
+                    os._exit(status)
         with contextlib.suppress(OSError):  # it has done so itself, or has ended
             os.setpgid(process, process)
         self._folders[process] = folder
@@ -118,7 +133,19 @@ class _Host:
             _kill(process)
             _, state = os.waitpid(process, 0)
             how = {"signal": os.WTERMSIG(state)} if os.WIFSIGNALED(state) else {"status": os.WEXITSTATUS(state)}
-            _answer(self._folders.pop(process), how)
+            self._answer(self._folders.pop(process), how)
+
+    def _answer(self, folder: Path, how: dict[str, int]) -> None:
+        """Says how a file's process has ended. Whoever asked may have gone, and the folder too; whoever waits for what cannot
+        be written, as on a full disk, learns of it by the end of this program, and begins anew without it."""
+        try:
+            written = folder / "ended.part"
+            written.write_text(json.dumps(how))
+            written.replace(folder / "ended")
+        except OSError:
+            if folder.exists():
+                self._end_all()
+                os._exit(_FAULT)
 
 
 def _stand_in(folder: Path, log: str) -> None:
@@ -137,11 +164,3 @@ def _stand_in(folder: Path, log: str) -> None:
 def _kill(process: int) -> None:
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process, signal.SIGKILL)
-
-
-def _answer(folder: Path, how: dict[str, int]) -> None:
-    """Says how a file's process has ended; whoever asked may have gone, and the folder too."""
-    with contextlib.suppress(OSError):
-        written = folder / "ended.part"
-        written.write_text(json.dumps(how))
-        written.replace(folder / "ended")

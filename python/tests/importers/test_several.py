@@ -31,6 +31,8 @@ def convert(job):
         time.sleep(600)
     if text == "starve":
         raise MemoryError
+    if text == "block":
+        os.mkdir("ended.part")
     print("printed for", text, "in", os.getcwd(), sorted(os.listdir()), flush=True)
     print(sys.stdin.read(), end="", flush=True)
     job.output.write_text("scene of " + text)
@@ -132,6 +134,30 @@ def test_what_goes_wrong_with_one_file_is_nothing_to_the_others(tmp_path: Path) 
         time.sleep(0.01)
     assert not lives(process)
     assert ended(host.begin("later", "later")) == {"status": 0}
+    assert host.leave() == 0
+
+
+def test_an_end_that_cannot_be_told_is_told_by_the_end_of_all(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    hanging = int(appeared(host.begin("hang", "hang") / "pid").read_text())
+    host.begin("block", "block")
+    assert host.process.wait(30) == 1
+    assert not (tmp_path / "block" / "ended").exists()
+    until = time.monotonic() + 30
+    while lives(hanging) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not lives(hanging)
+
+
+def test_what_is_wrong_with_an_importer_stands_in_the_log(tmp_path: Path) -> None:
+    host = Host(tmp_path)
+    folder = tmp_path / "a"
+    folder.mkdir()
+    words = ["--input", str(tmp_path), "--output", str(folder / "s.glb"), "--report", str(tmp_path / "none" / "r"), "--threads", "1"]
+    (folder / "job.json").write_text(json.dumps({"arguments": words, "log": str(folder / "log")}))
+    host.order("run", folder)
+    assert ended(folder) == {"status": 1}
+    assert "FileNotFoundError" in (folder / "log").read_text()
     assert host.leave() == 0
 
 

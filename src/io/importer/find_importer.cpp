@@ -84,7 +84,7 @@ std::optional<ImporterProgram> find_importer(const FileBytes& file,
 }
 
 fs::path program_for_several(const ImporterProgram& importer) {
-  // No suffix has a stroke in it, so that no file is read by this name.
+  // No suffix has a hyphen in it, so that no file is read by this name.
   const std::string one = std::string(kProgram) + '-';
   const std::string name = importer.file.filename().string();
   if (!name.starts_with(one)) return {};

@@ -169,13 +169,21 @@ Error ImportRun::failed_by_itself(const ChildEnd& end) const {
   if (const auto& fault = report_.fault())
     return {ErrorCode::input, fault->message.empty() ? name_ + " failed" : fault->message,
             task_.file.string(), fault->mend};
+  // Neither its report nor its log can say so.
+  constexpr std::uintmax_t kNoRoom = 4096;
+  std::error_code failed;
+  if (fs::space(folder_, failed).available < kNoRoom && !failed)
+    return ended(
+        fmt::format("ended with exit status {} on a disk without room", end.code), end,
+        "make room for " + folder_.parent_path().string() + ", or let TMPDIR name another folder");
   return ended(fmt::format("ended with exit status {} and gave no reason", end.code), end,
                "check that the file is whole, or convert it to glTF by another program");
 }
 
 Result<SceneFacts> ImportRun::outcome(const ChildEnd& end) {
   if (end.how == ChildEnd::How::stopped ||
-      (end.how == ChildEnd::How::refused && options_.given_up.stop_requested()))
+      ((end.how == ChildEnd::How::refused || end.how == ChildEnd::How::lost) &&
+       options_.given_up.stop_requested()))
     return Error{ErrorCode::cancelled, "reading was cancelled", task_.file.string(), ""};
   switch (end.how) {
     case ChildEnd::How::not_started:

@@ -148,8 +148,9 @@ TEST_F(ImportersOfSeveralFiles, OneThatDoesNotObeyIsKilled) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(50));
 }
 
-TEST_F(ImportersOfSeveralFiles, AnAnswerThatIsNoneIsALostHost) {
-  play_several("while read -r word folder; do echo '[]' > $folder/ended; done");
+TEST_F(ImportersOfSeveralFiles, OneThatHangsCostsNoFile) {
+  play_several("sleep 600");
+  settings_.silence_s = 0.3;
   play_well(note());
   const Result<model::Model> model = read({a_, b_});
   ASSERT_TRUE(model) << model.error().text();
@@ -157,19 +158,41 @@ TEST_F(ImportersOfSeveralFiles, AnAnswerThatIsNoneIsALostHost) {
   EXPECT_EQ(calls(), 2U);
 }
 
+TEST_F(ImportersOfSeveralFiles, AnAnswerThatIsNoneIsALostHost) {
+  play_well(note());
+  std::size_t round = 0;
+  for (const std::string answer : {"echo '[]' > $folder/ended", "mkdir $folder/ended",
+                                   "echo '{\"status\": 1e300}' > $folder/ended"}) {
+    play_several("while read -r word folder; do " + answer + "; done");
+    for (const fs::path& file : {a_, b_}) std::ofstream(file) << answer << file;
+    const Result<model::Model> model = read({a_, b_});
+    ASSERT_TRUE(model) << answer << ": " << model.error().text();
+    EXPECT_EQ(hosted(), 0U);
+    EXPECT_EQ(calls(), 2 * ++round);
+  }
+}
+
 TEST_F(ImportersOfSeveralFiles, AreCancelledWithTheRun) {
   play("sleep 600");
-  std::stop_source stop;
-  std::thread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(400));
-    stop.request_stop();
-  });
-  parallel::Team team(2);
-  const Result<model::Model> model = read({a_, b_}, {.team = &team, .stop = stop.get_token()});
-  stopper.join();
-  ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().code, ErrorCode::cancelled);
-  EXPECT_TRUE(is_tidy());
+  // One that still loads reads no order, and is not waited for either.
+  for (const std::string several : {"while read -r word folder; do serve & done", "sleep 600"}) {
+    play_several(several);
+    std::stop_source stop;
+    std::chrono::steady_clock::time_point stopped;
+    std::thread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(400));
+      stopped = std::chrono::steady_clock::now();
+      stop.request_stop();
+    });
+    parallel::Team team(2);
+    const Result<model::Model> model = read({a_, b_}, {.team = &team, .stop = stop.get_token()});
+    const auto end = std::chrono::steady_clock::now();
+    stopper.join();
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code, ErrorCode::cancelled);
+    EXPECT_LT(end - stopped, std::chrono::seconds(4));
+    EXPECT_TRUE(is_tidy());
+  }
 }
 
 }  // namespace

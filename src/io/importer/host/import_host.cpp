@@ -40,14 +40,17 @@ std::string job_text(const ChildProgram& program) {
 
 /// Returns what a host answered of a file; nothing where it is no answer.
 std::optional<ChildEnd> answer_in(const fs::path& file) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(text);
   if (!document || !document->root().is_object()) return std::nullopt;
   const auto [status, signal] = document->root().pick<2>({"status", "signal"});
-  if (const auto code = status.number())
+  const auto is_byte = [](double number) { return number >= 0 && number <= 255; };
+  if (const auto code = status.number(); code && is_byte(*code))
     return ChildEnd{ChildEnd::How::exited, static_cast<int>(*code), {}};
-  if (const auto number = signal.number())
+  if (const auto number = signal.number(); number && is_byte(*number))
     return ChildEnd{ChildEnd::How::killed, static_cast<int>(*number), {}};
   return std::nullopt;
 }
@@ -76,6 +79,8 @@ class HostedFile final : public RunningChild {
     // A host that cannot be told so has ended, and all with it.
     if (!host_.order("end", folder_)) host_.kill();
   }
+  /// Whether the host did not end the file's process as it was told to.
+  [[nodiscard]] bool has_killed_host() const { return has_killed_host_; }
   ChildEnd end() override {
     stop_it();
     if (auto end = answer_in(answer_)) return *std::move(end);
@@ -84,14 +89,16 @@ class HostedFile final : public RunningChild {
 
  private:
   /// Has what is left of it killed. A host that does not do so is killed itself.
-  void stop_it() const {
+  void stop_it() {
     if (has_ended()) return;
     kill();
-    if (!wait_for_end(*this, kPatienceS)) host_.kill();
+    has_killed_host_ = !wait_for_end(*this, kPatienceS);
+    if (has_killed_host_) host_.kill();
   }
 
   const ImportHost& host_;
   fs::path folder_, answer_;
+  bool has_killed_host_ = false;
 };
 
 std::unique_ptr<ImportHost> ImportHost::start(const fs::path& program) {
@@ -116,7 +123,7 @@ std::unique_ptr<ImportHost> ImportHost::start(const fs::path& program) {
 }
 
 ImportHost::~ImportHost() {
-  // All files have ended: it holds nothing that is worth to wait for, and is killed.
+  // All files have ended: it holds nothing that is worth waiting for, and is killed with its process.
   ::close(orders_);
 }
 
@@ -142,8 +149,15 @@ ChildEnd ImportHost::run(const ChildProgram& program, const std::stop_token& sto
     if (!out.flush()) return {ChildEnd::How::lost, 0, {}};
   }
   if (!order("run", program.folder)) return {ChildEnd::How::lost, 0, {}};
+  // Who cancels the run waits for none of its files, which end with the host.
+  const std::stop_callback all(stop, [this] { kill(); });
   HostedFile file(*this, program.folder);
-  return watch_child(file, program, stop);
+  ChildEnd end = watch_child(file, program, stop);
+  // A host that does not obey may be why there was no progress: that is nothing in the file.
+  if (file.has_killed_host() &&
+      (end.how == ChildEnd::How::refused || end.how == ChildEnd::How::over_limit))
+    end.how = ChildEnd::How::lost;
+  return end;
 }
 
 }  // namespace strake::io
