@@ -61,8 +61,11 @@ std::optional<ChildEnd> answer_in(const fs::path& file) {
 /// have nothing in common.
 class HostedFile final : public RunningChild {
  public:
-  HostedFile(const ImportHost& host, fs::path folder)
-      : host_(host), folder_(std::move(folder)), answer_(folder_ / "ended") {}
+  HostedFile(const ImportHost& host, fs::path folder, std::stop_token stop)
+      : host_(host),
+        folder_(std::move(folder)),
+        answer_(folder_ / "ended"),
+        stop_(std::move(stop)) {}
   ~HostedFile() override {
     if (!has_ended()) stop_it();
   }
@@ -76,8 +79,9 @@ class HostedFile final : public RunningChild {
     return fs::exists(answer_, failed) || host_.has_ended();
   }
   void kill() const override {
-    // A host that cannot be told so has ended, and all with it.
-    if (!host_.order("end", folder_)) host_.kill();
+    // When the run is cancelled all files end, and with the host at once. One that cannot be told
+    // of an end has ended, and all with it.
+    if (stop_.stop_requested() || !host_.order("end", folder_)) host_.kill();
   }
   /// Whether the host did not end the file's process as it was told to.
   [[nodiscard]] bool has_killed_host() const { return has_killed_host_; }
@@ -98,6 +102,7 @@ class HostedFile final : public RunningChild {
 
   const ImportHost& host_;
   fs::path folder_, answer_;
+  std::stop_token stop_;
   bool has_killed_host_ = false;
 };
 
@@ -123,7 +128,7 @@ std::unique_ptr<ImportHost> ImportHost::start(const fs::path& program) {
 }
 
 ImportHost::~ImportHost() {
-  // All files have ended: it holds nothing that is worth waiting for, and is killed with its process.
+  // All files have ended: it holds nothing worth waiting for, and is killed with its process.
   ::close(orders_);
 }
 
@@ -149,9 +154,7 @@ ChildEnd ImportHost::run(const ChildProgram& program, const std::stop_token& sto
     if (!out.flush()) return {ChildEnd::How::lost, 0, {}};
   }
   if (!order("run", program.folder)) return {ChildEnd::How::lost, 0, {}};
-  // Who cancels the run waits for none of its files, which end with the host.
-  const std::stop_callback all(stop, [this] { kill(); });
-  HostedFile file(*this, program.folder);
+  HostedFile file(*this, program.folder, stop);
   ChildEnd end = watch_child(file, program, stop);
   // A host that does not obey may be why there was no progress: that is nothing in the file.
   if (file.has_killed_host() &&
