@@ -397,7 +397,11 @@ std::uint32_t append_items(const VisibilityScene& visibility, std::uint32_t obje
 
 Status make_items(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
-  if (!job.options.clipped) visibility.outside.resize(job.drawn.size());
+  if (!job.options.clipped) {
+    auto outside = parallel::slots<std::uint32_t>(job.drawn.size(), context);
+    if (!outside) return outside.error();
+    visibility.outside = std::move(*outside);
+  }
   auto items = parallel::collect<EdgeRange>(
       context, {.name = "hidden lines: work items", .n = job.drawn.size(), .grain = kBodiesPerItem},
       [&](std::size_t object, std::vector<EdgeRange>& out) {
