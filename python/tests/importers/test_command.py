@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from glb_reader import Glb
-from strake.importers import Job, Part, Report, __main__, run
+from strake.importers import Job, Part, Report, __main__, ifc, run
 
 TRIANGLE = Part(np.eye(3), [[0, 1, 2]])
 
@@ -181,3 +181,16 @@ def test_ifcopenshell_is_loaded_without_grammars_and_others_may_load_them() -> N
     pytest.importorskip("lark")
     assert after(f"import lark; {lines}; print(sys.modules['lark'] is lark)") == "True"
     assert after(f"{lines}; import lark; print(lark.__name__)") == "lark"
+
+
+@pytest.mark.parametrize(("missing", "mend"), [("No module named 'x'", "pip install"), ("`GLIBCXX_3.4.29' not found", "newer system")])
+def test_a_library_that_is_missing_and_one_of_a_newer_system_are_told_apart(
+    missing: str, mend: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def load() -> None:
+        raise ImportError(missing)
+
+    monkeypatch.setattr(ifc, "load_ifcopenshell", load)
+    status, report = called(ifc.import_ifc, tmp_path)
+    assert status == 1
+    assert missing in report[-1]["error"] and mend in report[-1]["mend"]

@@ -15,10 +15,17 @@ def import_ifc(job: Job) -> None:
     try:
         load_ifcopenshell()
     except ImportError as missing:
-        job.report.fail(f"IfcOpenShell cannot be loaded: {missing}", "pip install 'strake[ifc]'")
+        job.report.fail(f"IfcOpenShell cannot be loaded: {missing}", _mend_of(missing))
     from strake.importers.ifc.convert import convert
 
     convert(job)
+
+
+def _mend_of(missing: ImportError) -> str:
+    # What is installed may be built for a newer system than this one.
+    if "GLIBC" in str(missing):
+        return "it wants a newer system, with the C++ library of GCC 11: import there, and go on with `strake convert FILE.ifc FILE.glb`"
+    return "pip install 'strake[ifc]'"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
