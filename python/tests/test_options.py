@@ -76,9 +76,10 @@ CLASH: dict[str, Counterpart] = {
     },
     **{
         "--" + name.replace("_", "-"): (strake.Clashes.save, name)
-        for name in ("bcf_author", "bcf_contacts", "bcf_date", "bcf_most", "bcf_version", "columns", "csv", "page_geometry")
+        for name in ("bcf_author", "bcf_contacts", "bcf_date", "bcf_version", "columns", "csv", "page_geometry")
     },
     "--bcf-history": OF_PROJECT,
+    "--bcf-max-topics": (strake.Clashes.save, "bcf_most"),
     "--broad-phase": SAME_RESULT,
     "--by": OF_PROJECT,
     "--class": (strake.clash, "classes"),
