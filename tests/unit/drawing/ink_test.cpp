@@ -212,7 +212,7 @@ TEST(Ink, PensAreThoseOfAllLinesForAnyTeam) {
 }
 
 TEST(Ink, ChoosingPensCanBeCancelled) {
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const auto pens =
       choose_pens(paper_from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
