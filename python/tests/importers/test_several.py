@@ -107,6 +107,14 @@ def lives(process: int) -> bool:
         return False
 
 
+def has_gone(process: int) -> bool:
+    """Waits for the end of a process; returns whether it came."""
+    until = time.monotonic() + 30
+    while lives(process) and time.monotonic() < until:
+        time.sleep(0.01)
+    return not lives(process)
+
+
 def test_libraries_are_loaded_once_and_each_file_has_its_folder_and_log(tmp_path: Path) -> None:
     host = Host(tmp_path)
     folders = [host.begin(name, name) for name in ("a", "b", "c")]
@@ -129,10 +137,7 @@ def test_what_goes_wrong_with_one_file_is_nothing_to_the_others(tmp_path: Path) 
     process = int(appeared(bad["hang"] / "pid").read_text())
     host.order("end", bad["hang"])
     assert ended(bad["hang"]) == {"signal": 9}
-    until = time.monotonic() + 30
-    while lives(process) and time.monotonic() < until:
-        time.sleep(0.01)
-    assert not lives(process)
+    assert has_gone(process)
     assert ended(host.begin("later", "later")) == {"status": 0}
     assert host.leave() == 0
 
@@ -143,10 +148,7 @@ def test_an_end_that_cannot_be_told_is_told_by_the_end_of_all(tmp_path: Path) ->
     host.begin("block", "block")
     assert host.process.wait(30) == 1
     assert not (tmp_path / "block" / "ended").exists()
-    until = time.monotonic() + 30
-    while lives(hanging) and time.monotonic() < until:
-        time.sleep(0.01)
-    assert not lives(hanging)
+    assert has_gone(hanging)
 
 
 def test_what_is_wrong_with_an_importer_stands_in_the_log(tmp_path: Path) -> None:
@@ -165,10 +167,7 @@ def test_all_files_end_with_who_ordered_them(tmp_path: Path) -> None:
     host = Host(tmp_path)
     process = int(appeared(host.begin("h", "hang") / "pid").read_text())
     assert host.leave() == 0
-    until = time.monotonic() + 30
-    while lives(process) and time.monotonic() < until:
-        time.sleep(0.01)
-    assert not lives(process)
+    assert has_gone(process)
 
 
 def test_orders_that_are_none_are_answered_or_passed_over(tmp_path: Path) -> None:
